@@ -1,0 +1,48 @@
+// The oracle: two plain loops in double precision, one target at a time.
+
+#include "backends/backend.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "kernels/list.hpp"
+
+namespace asterflow {
+namespace {
+
+template <PairKernel Kernel>
+class Reference final : public Evaluator {
+ public:
+  void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
+    ASTERFLOW_REQUIRE(normals.size() == (Kernel::has_normal ? sources.size() : 0));
+    sources_.assign(sources.begin(), sources.end());
+    targets_.assign(targets.begin(), targets.end());
+    normals_.assign(normals.begin(), normals.end());
+  }
+
+  void add_velocity(ConstPoints strengths, Points velocity) override {
+    ASTERFLOW_REQUIRE(strengths.size() == sources_.size() && velocity.size() == targets_.size());
+    parallel_for("Reference::add_velocity", static_cast<long>(targets_.size()), [&](long i) {
+      Vec3d u{};
+      for (std::size_t j = 0; j < sources_.size(); ++j)
+        u += Kernel::velocity(targets_[i] - sources_[j], strengths[j], Kernel::has_normal ? normals_[j] : Vec3d{});
+      velocity[i] += u;
+    });
+  }
+
+  std::string_view backend() const override { return "reference"; }
+  std::size_t memory() const override {
+    return sizeof(Vec3d) * (sources_.size() + targets_.size() + normals_.size());
+  }
+
+ private:
+  PointArray sources_, targets_, normals_;
+};
+
+}  // namespace
+
+std::unique_ptr<Evaluator> make_reference(std::string_view kernel, double) {
+  std::unique_ptr<Evaluator> evaluator;
+  with_kernel(kernel, [&](auto k) { evaluator = std::make_unique<Reference<decltype(k)>>(); });
+  return evaluator;
+}
+
+}  // namespace asterflow

@@ -1,0 +1,10 @@
+# Warnings and optimisation for our own targets only.
+add_library(asterflow_options INTERFACE)
+target_compile_options(asterflow_options INTERFACE
+  $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-Wall -Wextra -Wpedantic -Wno-unknown-pragmas>
+  $<$<AND:$<BOOL:${ASTERFLOW_WARNINGS_AS_ERRORS}>,$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>>:-Werror>)
+
+# Instruction set of the physics code. Pair sums choose theirs at run time and do not depend on this.
+if(ASTERFLOW_NATIVE)
+  target_compile_options(asterflow_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-march=native>)
+endif()

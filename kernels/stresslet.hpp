@@ -1,0 +1,25 @@
+#pragma once
+// Double layer of density q on an element with unit normal n:
+//   u = -(3 / (4 pi)) r (r . q) (r . n) / r^5    [Power & Miranda 1987; Pozrikidis 1992, eq. 2.3.12]
+// With n outward on a closed surface, constant q gives q inside, q / 2 on the surface, 0 outside.
+// The density is a velocity: no viscosity appears.
+
+#include "kernels/kernel.hpp"
+
+namespace asterflow {
+
+struct Stresslet {
+  static constexpr std::string_view name = "stresslet";
+  static constexpr int flops = 30;
+  static constexpr bool has_normal = true;
+  static constexpr double prefactor = -0.23873241463784303;  // -3 / (4 pi)
+
+  template <class Real>
+  KOKKOS_INLINE_FUNCTION static Vec3<Real> velocity(Vec3<Real> r, Vec3<Real> q, Vec3<Real> n) {
+    Real const s = inverse_distance(r);
+    Real const s2 = s * s;
+    return (Real(prefactor) * dot(r, q) * dot(r, n) * s2 * s2 * s) * r;
+  }
+};
+
+}  // namespace asterflow
