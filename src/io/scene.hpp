@@ -1,0 +1,41 @@
+#pragma once
+// A scene file (TOML) as plain data: what is there, how it is solved, what is written. A table that the file does
+// not have leaves an empty list or no value, and nothing is built from it. Lengths in um, times in s, forces in pN.
+//
+//   [fluid] [background] [periphery] [[body]] [[fiber]] [[aster]] [dynamic_instability] [run] [output] [drag]
+
+#include "background/background_spec.hpp"
+#include "body/body_spec.hpp"
+#include "io/drag_spec.hpp"
+#include "io/fluid_spec.hpp"
+#include "io/output_spec.hpp"
+#include "io/run_spec.hpp"
+#include "periphery/periphery_spec.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace asterflow {
+
+struct Scene {
+  FluidSpec fluid;
+  RunSpec run;
+  OutputSpec output;
+  DragSpec drag;
+  std::optional<PeripherySpec> periphery;
+  std::optional<BackgroundSpec> background;
+  std::vector<BodySpec> bodies;
+
+  std::string file;                    // as the user wrote it
+  std::string text;                    // all of it, kept with the trajectory
+  std::vector<std::string> overrides;  // "table.key=value", applied to it
+};
+
+// Reads and validates, including what involves several objects. Throws SceneError.
+Scene read_scene(std::string const& file, std::vector<std::string> const& overrides = {});
+
+// The same from a text that is already in memory, such as that of a trajectory.
+Scene parse_scene(std::string const& text, std::string const& file, std::vector<std::string> const& overrides = {});
+
+}  // namespace asterflow
