@@ -9,3 +9,9 @@ target_compile_options(asterflow_options INTERFACE
 if(ASTERFLOW_NATIVE)
   target_compile_options(asterflow_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-march=native>)
 endif()
+
+if(ASTERFLOW_SANITIZE)
+  set(sanitizers -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_compile_options(asterflow_options INTERFACE ${sanitizers})
+  target_link_options(asterflow_options INTERFACE ${sanitizers})
+endif()

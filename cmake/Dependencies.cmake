@@ -1,5 +1,10 @@
 # Every library is found, never downloaded; cmake/bootstrap.sh installs them.
-find_package(Kokkos REQUIRED)
+if(DEFINED ENV{XDG_CACHE_HOME})
+  set(kokkos_cache $ENV{XDG_CACHE_HOME}/asterflow/kokkos)
+else()
+  set(kokkos_cache $ENV{HOME}/.cache/asterflow/kokkos)
+endif()
+find_package(Kokkos REQUIRED PATHS ${kokkos_cache})  # Kokkos_ROOT first, then the system, then bootstrap's own
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)

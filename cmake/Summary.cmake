@@ -1,0 +1,10 @@
+# What was configured, printed once at the end.
+message(STATUS "asterflow ${PROJECT_VERSION}")
+message(STATUS "  build type        ${CMAKE_BUILD_TYPE}")
+message(STATUS "  compiler          ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}")
+message(STATUS "  Kokkos            ${Kokkos_VERSION} with ${Kokkos_DEVICES}, ${Kokkos_DIR}")
+message(STATUS "  this machine only ${ASTERFLOW_NATIVE}   (ASTERFLOW_NATIVE)")
+message(STATUS "  tests             ${ASTERFLOW_BUILD_TESTS}   (ASTERFLOW_BUILD_TESTS)")
+message(STATUS "  benchmarks        ${ASTERFLOW_BUILD_BENCH}   (ASTERFLOW_BUILD_BENCH)")
+message(STATUS "  warnings stop     ${ASTERFLOW_WARNINGS_AS_ERRORS}   (ASTERFLOW_WARNINGS_AS_ERRORS)")
+message(STATUS "  sanitizers        ${ASTERFLOW_SANITIZE}   (ASTERFLOW_SANITIZE)")
