@@ -1,6 +1,66 @@
+// The program: chooses a subcommand, starts Kokkos, and turns errors into exit codes
+//   0 done   1 bad input   2 numerical failure, state saved   3 internal error
+
+#include "base/error.hpp"
+#include "command/sum.hpp"
+
 #include <Kokkos_Core.hpp>
 
-int main(int argc, char** argv) {
-  Kokkos::ScopeGuard kokkos(argc, argv);
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+constexpr char const* version = ASTERFLOW_VERSION;
+
+int report(std::string const& message, int code) {
+  std::fprintf(stderr, "%s\n", message.c_str());
+  return code;
+}
+
+// Errors of the command line take one line like all others.
+int report_usage(CLI::App const& program, CLI::ParseError const& error) {
+  if (error.get_exit_code() == 0) return program.exit(error);  // help and version
+  std::string name = "asterflow";
+  for (auto const* command : program.get_subcommands()) name += " " + command->get_name();
+  return report(name + ": " + error.what() + " (see " + name + " --help)", 1);
+}
+
+int run(int argc, char** argv) {
+  CLI::App program("asterflow: flexible fibers, rigid bodies and a confining surface in Stokes flow", "asterflow");
+  asterflow::Action chosen;
+  program.set_version_flag("--version", version);
+  program.require_subcommand(0, 1);
+  program.footer(
+      "\nasterflow COMMAND --help explains a command.\n"
+      "Exit codes: 0 done, 1 bad input, 2 numerical failure (state saved), 3 internal error.\n"
+      "Threads: set OMP_NUM_THREADS.\n");
+  asterflow::add_sum_command(program, chosen);
+  try {
+    program.parse(argc, argv);
+  } catch (CLI::ParseError const& error) {
+    return report_usage(program, error);
+  }
+  if (!chosen) return report("asterflow: a command is missing (see asterflow --help)", 1);
+  setenv("OMP_PROC_BIND", "false", 0);  // several runs on one machine must not share a core; also silences Kokkos
+  Kokkos::ScopeGuard const kokkos;
+  chosen();
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (asterflow::SceneError const& error) {
+    return report(error.what(), 1);
+  } catch (std::bad_alloc const&) {
+    return report("asterflow: not enough memory for this input; reduce it or use a larger machine", 1);
+  } catch (asterflow::NumericalError const& error) {
+    return report(error.what(), 2);
+  } catch (std::exception const& error) {
+    return report(std::string("asterflow: internal error, please report: ") + error.what(), 3);
+  }
 }

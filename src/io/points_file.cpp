@@ -1,0 +1,60 @@
+#include "io/points_file.hpp"
+
+#include "base/error.hpp"
+#include "io/array_file.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace asterflow {
+
+namespace {
+
+PointArray read_finite(ArrayFile const& file, std::string const& path, std::string const& name) {
+  PointArray points = file.read_points(name);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (!std::isfinite(points[i][k]))
+        throw SceneError(fmt::format("{}: dataset \"{}\": row {} holds {}: every number must be finite", path, name, i,
+                                     points[i][k]));
+  return points;
+}
+
+void check_count(std::string const& path, std::string const& name, std::size_t n, std::size_t n_source) {
+  if (n != n_source)
+    throw SceneError(fmt::format("{}: dataset \"{}\": has {} rows, must have one for each of the {} sources", path,
+                                 name, n, n_source));
+}
+
+}  // namespace
+
+PointsFile read_points_file(std::string const& path, bool needs_normals) {
+  ArrayFile const file(path, ArrayFile::Mode::read);
+  PointsFile points;
+  points.sources = read_finite(file, path, "sources");
+  points.strengths = read_finite(file, path, "strengths");
+  check_count(path, "strengths", points.strengths.size(), points.sources.size());
+  if (needs_normals) {
+    points.normals = read_finite(file, path, "normals");
+    check_count(path, "normals", points.normals.size(), points.sources.size());
+  }
+  points.targets = file.has("targets") ? read_finite(file, path, "targets") : points.sources;
+  return points;
+}
+
+void write_velocity(std::string const& path, ConstPoints velocity) {
+  std::string const part = path + ".part";
+  try {
+    ArrayFile file(part, ArrayFile::Mode::create);
+    file.write(NamedArray::of("velocity", velocity, "um/s"));
+    file.close();
+    std::filesystem::rename(part, path);
+  } catch (std::exception const&) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw;
+  }
+}
+
+}  // namespace asterflow

@@ -1,0 +1,165 @@
+"""asterflow sum: results against numpy, and every kind of bad input."""
+
+import json
+import unittest
+
+import h5py
+import numpy as np
+
+from program import CommandTest
+
+
+def stokeslet(sources, targets, strengths, viscosity):
+    r = targets[:, None, :] - sources[None, :, :]
+    distance = np.linalg.norm(r, axis=2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s = np.where(distance > 0, 1 / distance, 0)
+    along = np.einsum("mnk,nk->mn", r, strengths)
+    return (np.einsum("mn,nk->mk", s, strengths) + np.einsum("mn,mnk->mk", along * s**3, r)) / (8 * np.pi * viscosity)
+
+
+class Sum(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.input = self.folder / "points.h5"
+        self.output = self.folder / "u.h5"
+        random = np.random.default_rng(1)
+        self.points = {
+            "sources": random.random((300, 3)),
+            "targets": random.random((50, 3)),
+            "strengths": random.standard_normal((300, 3)),
+            "normals": random.standard_normal((300, 3)),
+        }
+
+    def write(self, **changed):
+        with h5py.File(self.input, "w") as file:
+            for name, array in (self.points | changed).items():
+                if array is not None:
+                    file[name] = array
+
+    def sum(self, *options):
+        return self.expect_done("sum", "-i", self.input, "-o", self.output, *options)
+
+    def refused(self, *options, names=()):
+        result = self.expect_refusal("sum", "-i", self.input, "-o", self.output, *options, names=names)
+        self.assertFalse(self.output.exists())
+        return result
+
+    def velocity(self):
+        with h5py.File(self.output) as file:
+            return file["velocity"][:]
+
+    def test_agrees_with_numpy_at_any_viscosity(self):
+        self.write()
+        self.sum("--kernel", "stokeslet", "--accuracy", "1e-12", "--viscosity", "2.5")
+        exact = stokeslet(self.points["sources"], self.points["targets"], self.points["strengths"], 2.5)
+        self.assertLess(np.linalg.norm(self.velocity() - exact), 1e-11 * np.linalg.norm(exact))
+
+    def test_sources_are_the_targets_when_none_are_given(self):
+        self.write(targets=None)
+        self.sum("--accuracy", "1e-12")
+        sources = self.points["sources"]
+        exact = stokeslet(sources, sources, self.points["strengths"], 1.0)
+        self.assertLess(np.linalg.norm(self.velocity() - exact), 1e-11 * np.linalg.norm(exact))
+
+    def test_stresslet_is_linear_in_the_normal_and_free_of_viscosity(self):
+        self.write()
+        self.sum("--kernel", "stresslet", "--accuracy", "1e-12")
+        plain = self.velocity()
+        self.write(normals=3 * self.points["normals"])
+        self.sum("--kernel", "stresslet", "--accuracy", "1e-12", "--viscosity", "7")
+        self.assertLess(np.linalg.norm(self.velocity() - 3 * plain), 1e-11 * np.linalg.norm(plain))
+
+    def test_prints_one_line_of_json(self):
+        self.write()
+        line = json.loads(self.sum("--reference-error", "--repeat", "2").stdout)
+        self.assertEqual((line["n"], line["m"], line["kernel"]), (300, 50, "stokeslet"))
+        self.assertLess(line["error"], 1e-6)
+        self.assertGreater(line["pairs_per_second"], 0)
+
+    def test_accepts_single_precision_and_whole_numbers(self):
+        self.write(sources=np.arange(900).reshape(300, 3), strengths=self.points["strengths"].astype("f4"))
+        self.sum()
+
+    def test_no_sources_give_no_velocity(self):
+        self.write(sources=np.zeros((0, 3)), strengths=np.zeros((0, 3)))
+        self.sum()
+        self.assertEqual(np.abs(self.velocity()).max(), 0)
+
+    def test_refuses_a_missing_file(self):
+        self.refused(names=[self.input, "no such file"])
+
+    def test_refuses_a_folder(self):
+        self.input.mkdir()
+        self.refused(names=[self.input, "is a folder"])
+
+    def test_refuses_a_foreign_file(self):
+        self.input.write_text("sources\n1 2 3\n")
+        self.refused(names=[self.input, "not an HDF5 file"])
+
+    def test_refuses_a_truncated_file(self):
+        self.write()
+        whole = self.input.read_bytes()
+        self.input.write_bytes(whole[: len(whole) // 2])
+        self.refused(names=[self.input, "truncated"])
+
+    def test_refuses_a_missing_dataset(self):
+        self.write(strengths=None)
+        self.refused(names=[self.input, '"strengths"', "is missing"])
+
+    def test_refuses_a_stresslet_without_normals(self):
+        self.write(normals=None)
+        self.refused("--kernel", "stresslet", names=['"normals"', "is missing"])
+
+    def test_refuses_a_wrong_shape(self):
+        self.write(sources=np.zeros((300, 2)))
+        self.refused(names=['"sources"', "[300, 2]", "must be [n, 3]"])
+
+    def test_refuses_a_wrong_number_of_strengths(self):
+        self.write(strengths=np.zeros((299, 3)))
+        self.refused(names=['"strengths"', "299", "300"])
+
+    def test_refuses_words_and_groups(self):
+        self.write(sources=np.array([b"a", b"b"]))
+        self.refused(names=['"sources"', "must hold numbers"])
+        with h5py.File(self.input, "w") as file:
+            file.create_group("sources")
+        self.refused(names=['"sources"', "is not a dataset"])
+
+    def test_refuses_numbers_that_are_not_finite(self):
+        sources = self.points["sources"].copy()
+        sources[7, 1] = np.nan
+        self.write(sources=sources)
+        self.refused(names=['"sources"', "row 7", "nan"])
+
+    def test_refuses_unknown_names_and_ranges(self):
+        self.write()
+        self.refused("--kernel", "magic", names=["magic", "stokeslet"])
+        self.refused("--backend", "magic", names=["magic", "reference"])
+        self.refused("--accuracy", "0", names=["accuracy"])
+        self.refused("--accuracy", "nan", names=["accuracy"])
+        self.refused("--viscosity", "-1", names=["viscosity"])
+        self.refused("--repeat", "0", names=["repeat"])
+        self.refused("--magic", names=["--magic"])
+
+    def test_refuses_an_output_that_cannot_be_written(self):
+        self.write()
+        self.expect_refusal("sum", "-i", self.input, "-o", self.folder / "absent" / "u.h5", names=["does not exist"])
+        self.expect_refusal("sum", "-i", self.input, "-o", self.folder, names=["is a folder"])
+        before = self.input.read_bytes()
+        self.expect_refusal("sum", "-i", self.input, "-o", self.input, names=["is the input file"])
+        self.assertEqual(self.input.read_bytes(), before)
+
+
+class Program(CommandTest):
+    def test_explains_itself(self):
+        self.assertIn("sum", self.expect_done("--help").stdout)
+        self.assertIn("Examples", self.expect_done("sum", "--help").stdout)
+
+    def test_refuses_an_unknown_command(self):
+        self.expect_refusal("magic", names=["magic", "--help"])
+        self.expect_refusal(names=["--help"])
+
+
+if __name__ == "__main__":
+    unittest.main()
