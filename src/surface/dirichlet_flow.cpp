@@ -1,0 +1,104 @@
+#include "surface/dirichlet_flow.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace asterflow {
+namespace {
+
+// Shells needed along the radius. A field of degree p in rho (or s) has Chebyshev coefficients that fall like
+// exp(-k^2 / p); outside a slender shape the field is singular at s = 1 / eccentricity, inside the shape.
+int shell_count(Shape const& shape, Side side, int order, double accuracy) {
+  double const digits = std::log(10.0 / accuracy);
+  double const smooth = std::min(order + 3.0, std::sqrt((order + 2.0) * digits) * 1.1 + 3.0);
+  double const aspect = shape.aspect_ratio();
+  if (side == Side::interior || aspect < 1.01) return static_cast<int>(smooth);
+  double const singularity = 2.0 / std::sqrt(1.0 - 1.0 / (aspect * aspect)) - 1.0;  // on the axis where [-1, 1] is s
+  double const rate = std::log(singularity + std::sqrt(singularity * singularity - 1.0));
+  return static_cast<int>(std::min(80.0, std::max(smooth, digits / rate + 3.0)));
+}
+
+double quadrature_digits(double accuracy) { return std::clamp(1.5 - std::log10(accuracy), 4.0, 13.0); }
+
+}  // namespace
+
+DirichletFlow::DirichletFlow(Surface surface, Side side, double accuracy)
+    : surface_(std::move(surface)), side_(side),
+      n_shell_(shell_count(surface_.shape(), side, surface_.order(), accuracy)),
+      table_(surface_.grid(), n_shell_, InterpolationWindow::width_for(accuracy)),
+      operator_(surface_, side, n_shell_, quadrature_digits(accuracy)) {}
+
+DirichletFlow::Targets DirichletFlow::plan(ConstPoints targets) const {
+  Targets result;
+  plan(targets, result);
+  return result;
+}
+
+void DirichletFlow::plan(ConstPoints targets, Targets& result) const {
+  result.points_.resize(targets.size());
+  constexpr long chunk = 256;
+  auto const n = static_cast<long>(targets.size());
+  parallel_for("DirichletFlow::plan", (n + chunk - 1) / chunk, [&](long block) {
+    for (long i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
+      ShellPoint const at = surface_.shape().shell_point(targets[i]);
+      double const outside = side_ == Side::interior ? -at.depth : at.depth;
+      if (!(outside <= 1e-3))
+        throw NumericalError(fmt::format("target {} at ({}, {}, {}) um lies on the wrong side of a surface, scale {}", i,
+                                         targets[i].x, targets[i].y, targets[i].z, at.rho));
+      double const scale = std::min(1.0, side_ == Side::interior ? at.rho : 1.0 / at.rho);
+      double const rest = std::max(0.0, side_ == Side::interior ? at.depth : -at.depth * scale);
+      double const psi = 2.0 * std::atan2(std::sqrt(rest), std::sqrt(scale));
+      result.points_[i] = {table_.locate(psi, at.theta, at.phi), side_ == Side::interior ? 1.0 : scale};
+    }
+  });
+}
+
+void DirichletFlow::add_velocity(ConstPoints boundary_velocity, Targets const& targets, Points velocity) const {
+  ASTERFLOW_REQUIRE(targets.size() == velocity.size());
+  operator_.shell_modes(boundary_velocity, modes_);
+  table_.fill(modes_, values_);
+  constexpr long chunk = 256;
+  auto const n = static_cast<long>(targets.size());
+  parallel_for("DirichletFlow::interpolate", (n + chunk - 1) / chunk, [&](long block) {
+    for (long i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
+      Targets::Point const& point = targets.points_[i];
+      double u[3];
+      table_.interpolate(values_, point.table, u);
+      velocity[i] += point.factor * surface_.shape().from_polar({u[0], u[1], u[2]});
+    }
+  });
+}
+
+Vector6 DirichletFlow::load(ConstPoints boundary_velocity) const {
+  Vector6 const polar = operator_.load(boundary_velocity);
+  Vec3d const force = surface_.shape().from_polar({polar[0], polar[1], polar[2]});
+  Vec3d const torque =
+      surface_.shape().from_polar({polar[3], polar[4], polar[5]}) + cross(surface_.shape().centre(), force);
+  return {force.x, force.y, force.z, torque.x, torque.y, torque.z};
+}
+
+Matrix6 DirichletFlow::resistance() const {
+  Matrix6 result;
+  PointArray motion(surface_.size());
+  for (int column = 0; column < 6; ++column) {
+    Vec3d axis;
+    axis[column % 3] = 1.0;
+    for (std::size_t i = 0; i < motion.size(); ++i) motion[i] = column < 3 ? axis : cross(axis, surface_.nodes()[i]);
+    result.col(column) = load(motion);
+  }
+  return 0.5 * (result + result.transpose());
+}
+
+std::size_t DirichletFlow::memory() const { return operator_.memory() + table_.memory(); }
+
+int default_order(Shape const& shape, double accuracy) {
+  double const digits = std::clamp(-std::log10(accuracy), 2.0, 12.0);
+  double const slenderness = std::sqrt(std::min(shape.aspect_ratio(), 9.0));
+  return std::clamp(static_cast<int>(std::lround((2.0 + 3.5 * digits) * (0.6 + 0.4 * slenderness))), 6, 64);
+}
+
+}  // namespace asterflow

@@ -1,0 +1,63 @@
+#pragma once
+// Stokes flow inside or outside a closed surface with given velocity w on it (zero at infinity), as a precomputed linear
+// map: boundary velocity at the surface's nodes -> velocity anywhere, at any distance, on the surface too.
+//   interior: data with net flux are met up to a multiple of the normal.
+//   exterior: net force and torque on the fluid follow from w (load); forces for viscosity 1.
+// All in the surface's own frame, lengths in um. Method: axisymmetric_dirichlet.hpp, shell_table.hpp.
+
+#include "surface/axisymmetric_dirichlet.hpp"
+
+namespace asterflow {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+class DirichletFlow {
+ public:
+  // accuracy: relative, of everything but the resolution of w by the surface's nodes.
+  DirichletFlow(Surface surface, Side side, double accuracy);
+
+  Surface const& surface() const { return surface_; }
+  Side side() const { return side_; }
+
+  // Fixed targets, ready for repeated evaluation.
+  class Targets {
+   public:
+    std::size_t size() const { return points_.size(); }
+
+   private:
+    friend class DirichletFlow;
+    struct Point {
+      TablePoint table;
+      double factor;  // 1 or, exterior, 1 / rho
+    };
+    std::vector<Point> points_;
+  };
+
+  // Targets on the wrong side are moved onto the surface when they are within 1e-3 of its size, else NumericalError.
+  Targets plan(ConstPoints targets) const;
+  void plan(ConstPoints targets, Targets& result) const;  // reuses memory
+
+  // Calls on one object must not overlap: they share a work array.
+  void add_velocity(ConstPoints boundary_velocity, Targets const& targets, Points velocity) const;
+
+  // Exterior: force (pN) and torque (pN um) about the origin of the shape's frame on the fluid, viscosity 1.
+  Vector6 load(ConstPoints boundary_velocity) const;
+  // Exterior: load of the six unit rigid motions (translation, rotation about the origin); symmetric.
+  Matrix6 resistance() const;
+  std::size_t memory() const;  // bytes
+
+ private:
+  Surface surface_;
+  Side side_;
+  int n_shell_;
+  ShellTable table_;
+  AxisymmetricDirichlet operator_;
+  mutable std::vector<ShellMode> modes_;
+  mutable ShellTable::Values values_;
+};
+
+// Order whose nodes resolve the flow of objects about a third of the surface's size away to the relative accuracy.
+int default_order(Shape const& shape, double accuracy);
+
+}  // namespace asterflow

@@ -1,0 +1,24 @@
+#pragma once
+// One-dimensional quadrature for smooth functions that are nearly singular at one point: singularities at a complex
+// distance `scale` of `centre`. Each side is split where the oscillation of the density dominates; the inner part is
+// stretched by x = centre + scale sinh(t), whose Gauss-Legendre error falls geometrically at any scale
+// [Johnston & Elliott 2005]; an inner part with scale 0 resolves an integrable singularity to 1e-13 of its length.
+
+#include <vector>
+
+namespace asterflow {
+
+struct RulePoint {
+  double x, weight;
+};
+
+struct GradedRuleOptions {
+  double digits = 10.0;     // decimal digits wanted
+  double wavenumber = 16.0; // the density oscillates at most like cos(wavenumber x)
+};
+
+// Appends a rule for [first, last], first <= centre <= last.
+void append_graded_rule(double first, double centre, double last, double scale, GradedRuleOptions const& options,
+                        std::vector<RulePoint>& rule);
+
+}  // namespace asterflow

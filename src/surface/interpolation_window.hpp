@@ -1,0 +1,33 @@
+#pragma once
+// Interpolation of band-limited periodic functions from a twice oversampled equispaced grid by a compact window,
+//   f(x) = sum_j w(x - j) g_j,   w(x) = exp(beta (sqrt(1 - (2 x / W)^2) - 1)),  |x| <= W / 2,
+// where the grid values g are those of f with its Fourier coefficients divided by the window's transform.
+// Relative error about 10^(1 - W).  [Barnett, Magland & af Klinteberg 2019, SIAM J. Sci. Comput. 41]
+
+#include <Eigen/Core>
+
+namespace asterflow {
+
+class InterpolationWindow {
+ public:
+  static constexpr int widths[] = {6, 8, 10, 12, 14, 16};
+
+  explicit InterpolationWindow(int width);       // one of widths
+  static int width_for(double accuracy);         // relative accuracy of the interpolation
+
+  int width() const { return width_; }
+  double transform(double cycles_per_node) const;  // int w(x) cos(2 pi k x) dx
+
+  // Weight of the i-th of the W nodes from the first one: a polynomial in t = 2 z - 1, where z in [0, 1) is the
+  // distance from x - W / 2 up to the first node. Column i: coefficients, lowest power first.
+  using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // [n_coefficient, W]
+  Coefficients const& coefficients() const { return coefficients_; }
+
+ private:
+  double value(double x) const;
+  int width_;
+  double beta_;
+  Coefficients coefficients_;
+};
+
+}  // namespace asterflow

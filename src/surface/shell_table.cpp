@@ -1,0 +1,143 @@
+#include "surface/shell_table.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace asterflow {
+namespace {
+
+using Eigen::MatrixXd;
+constexpr double pi = std::numbers::pi;
+
+// Values at `nodes` of functions cos(k x), k = first ... (even), or sin(k x) -> values divided by the window's transform
+// at x_i = pi (i - margin) / n, ghosts included.
+MatrixXd upsampling(std::vector<double> const& nodes, bool odd, int n, int margin, InterpolationWindow const& window) {
+  auto const size = static_cast<Eigen::Index>(nodes.size());
+  MatrixXd at_nodes(size, size), at_table(n + 1 + 2 * margin, size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    double const wavenumber = static_cast<double>(odd ? k + 1 : k);
+    double const correction = 1.0 / window.transform(wavenumber / (2.0 * n));
+    auto const basis = [&](double x) { return odd ? std::sin(wavenumber * x) : std::cos(wavenumber * x); };
+    for (Eigen::Index i = 0; i < size; ++i) at_nodes(i, k) = basis(nodes[i]);
+    for (Eigen::Index i = 0; i < at_table.rows(); ++i) at_table(i, k) = correction * basis(pi * (i - margin) / n);
+  }
+  return at_nodes.transpose().partialPivLu().solve(at_table.transpose()).transpose();
+}
+
+int even_fft_size(int least) {  // smallest even 2^a 3^b 5^c
+  for (int n = least + least % 2;; n += 2) {
+    int rest = n;
+    for (int const factor : {2, 3, 5})
+      while (rest % factor == 0) rest /= factor;
+    if (rest == 1) return n;
+  }
+}
+
+}  // namespace
+
+double shell_scale(int k, int n_shell) {
+  double const c = k == n_shell - 1 ? 0.0 : std::cos(0.5 * pi * k / (n_shell - 1));
+  return c * c;
+}
+
+ShellTable::ShellTable(SphereGrid const& grid, int n_shell, int window_width)
+    : n_ring_(grid.n_ring()), n_shell_(n_shell), window_(window_width), n_psi_(2 * n_shell), n_theta_(2 * n_ring_ + 2),
+      n_phi_(even_fft_size(4 * n_ring_)), margin_(window_width / 2), row_((n_phi_ + 2 * margin_ + 8) / 8 * 8),
+      transform_(n_phi_) {
+  ASTERFLOW_REQUIRE(n_shell >= 2);
+  std::vector<double> psi;
+  for (int k = 0; k < n_shell; ++k) psi.push_back(pi * k / (n_shell - 1));
+  psi_up_ = upsampling(psi, false, n_psi_, margin_, window_);
+  for (bool const odd : {false, true}) theta_up_[odd] = upsampling(grid.polar_angles(), odd, n_theta_, margin_, window_);
+  for (int m = 0; m < n_ring_; ++m) phi_correction_.push_back(1.0 / window_.transform(static_cast<double>(m) / n_phi_));
+}
+
+TablePoint ShellTable::locate(double psi, double theta, double phi) const {
+  double const turns = phi / (2.0 * pi);
+  return {psi / pi * n_psi_, theta / pi * n_theta_, (turns - std::floor(turns)) * n_phi_, std::cos(phi), std::sin(phi)};
+}
+
+std::size_t ShellTable::memory() const {
+  return sizeof(double) * 3 * row_ * psi_up_.rows() * theta_up_[0].rows();
+}
+
+// Upsampling is a tensor product: theta and psi by small matrices mode by mode, phi by a Fourier transform.
+void ShellTable::fill(std::vector<ShellMode> const& modes, Values& values) const {
+  auto const n_psi = psi_up_.rows(), n_theta = theta_up_[0].rows();
+  values.resize(memory() / sizeof(double));
+  std::vector<MatrixXd> fine(modes.size());  // [n_theta, (part, component, psi)]
+  parallel_for("ShellTable::fill::meridian", static_cast<long>(modes.size()), [&](long m) {
+    fine[m].resize(n_theta, 6 * n_psi);
+    for (int part = 0; part < 2; ++part)
+      for (int c = 0; c < 3; ++c) {
+        Eigen::Map<MatrixXd const> const coarse(modes[m].col(part).data() + c * n_shell_ * n_ring_, n_ring_, n_shell_);
+        bool const odd = ((c > 0) + m) % 2 != 0;
+        MatrixXd const rings = (phi_correction_[m] * theta_up_[odd]) * coarse;
+        fine[m].middleCols((part * 3 + c) * n_psi, n_psi).noalias() = rings * psi_up_.transpose();
+      }
+  });
+  parallel_for("ShellTable::fill::azimuth", n_psi, [&](long i) {
+    std::vector<std::complex<double>> spectrum(n_phi_ / 2 + 1);
+    for (Eigen::Index j = 0; j < n_theta; ++j)
+      for (int c = 0; c < 3; ++c) {
+        std::ranges::fill(spectrum, 0.0);
+        for (std::size_t m = 0; m < modes.size(); ++m) {
+          double const re = fine[m](j, c * n_psi + i), im = fine[m](j, (3 + c) * n_psi + i);
+          spectrum[m] = c < 2 ? std::complex(re, im) : std::complex(-im, re);
+        }
+        double* const row = values.data() + ((i * n_theta + j) * 3 + c) * row_;
+        transform_.synthesise(spectrum.data(), row + margin_);
+        for (int g = 0; g < margin_; ++g) row[g] = row[g + n_phi_];
+        for (int g = margin_ + n_phi_; g < row_; ++g) row[g] = row[g - n_phi_];
+      }
+  });
+}
+
+template <int width>
+void ShellTable::interpolate_with(Values const& values, TablePoint const& point, double velocity[3]) const {
+  double weights[3][width];
+  long first[3];
+  double const position[3] = {point.psi, point.theta, point.phi};
+  auto const& coefficients = window_.coefficients();
+  for (int d = 0; d < 3; ++d) {
+    double const start = position[d] - 0.5 * width, node = std::ceil(start), t = 2.0 * (node - start) - 1.0;
+    first[d] = static_cast<long>(node) + margin_;
+    auto const last = coefficients.rows() - 1;
+    for (int i = 0; i < width; ++i) weights[d][i] = coefficients(last, i);
+    for (auto k = last - 1; k >= 0; --k)
+      for (int i = 0; i < width; ++i) weights[d][i] = weights[d][i] * t + coefficients(k, i);
+  }
+  double sums[3][width] = {};
+  auto const n_theta = theta_up_[0].rows();
+  for (int a = 0; a < width; ++a)
+    for (int b = 0; b < width; ++b) {
+      double const w = weights[0][a] * weights[1][b];
+      double const* const row = values.data() + ((first[0] + a) * n_theta + first[1] + b) * 3 * row_ + first[2];
+      for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < width; ++i) sums[c][i] += w * row[c * row_ + i];
+    }
+  double u[3] = {};
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < width; ++i) u[c] += weights[2][i] * sums[c][i];
+  velocity[0] = u[0];
+  velocity[1] = u[1] * point.cos_phi - u[2] * point.sin_phi;
+  velocity[2] = u[1] * point.sin_phi + u[2] * point.cos_phi;
+}
+
+void ShellTable::interpolate(Values const& values, TablePoint const& point, double velocity[3]) const {
+  switch (window_.width()) {
+    case 6: return interpolate_with<6>(values, point, velocity);
+    case 8: return interpolate_with<8>(values, point, velocity);
+    case 10: return interpolate_with<10>(values, point, velocity);
+    case 12: return interpolate_with<12>(values, point, velocity);
+    case 14: return interpolate_with<14>(values, point, velocity);
+    default: return interpolate_with<16>(values, point, velocity);
+  }
+}
+
+}  // namespace asterflow

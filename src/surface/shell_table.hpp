@@ -1,0 +1,57 @@
+#pragma once
+// A vector field around a closed surface, tabulated on scaled copies ("shells") of it and interpolated anywhere.
+// Coordinates (psi, theta, phi): theta, phi of the surface's parametrisation; the shell's scale is
+//   interior  rho = (1 + cos psi) / 2,   exterior  1 / rho = (1 + cos psi) / 2,   psi in [0, pi],
+// so psi = 0 is the surface and psi = pi the centre or infinity. In all three the field continues as a periodic function.
+// Components are cylindrical about the polar axis: (axial, radial, azimuthal).
+
+#include "surface/azimuth_transform.hpp"
+#include "surface/interpolation_window.hpp"
+#include "surface/sphere_grid.hpp"
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace asterflow {
+
+// Fourier coefficients of one azimuthal mode m (azimuth_transform.hpp) on all shells and rings: real and imaginary part.
+// Rows: (component * n_shell + i_shell) * n_ring + i_ring. The azimuthal component is divided by i.
+using ShellMode = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+
+// Position of a target in units of table cells, and its frame.
+struct TablePoint {
+  double psi, theta, phi;  // cells
+  double cos_phi, sin_phi;
+};
+
+// Scale of shell k: (1 + cos psi_k) / 2, psi_k = pi k / (n_shell - 1).
+double shell_scale(int k, int n_shell);
+
+class ShellTable {
+ public:
+  ShellTable(SphereGrid const& grid, int n_shell, int window_width);
+
+  int n_shell() const { return n_shell_; }
+  TablePoint locate(double psi, double theta, double phi) const;
+
+  using Values = std::vector<double>;
+  void fill(std::vector<ShellMode> const& modes, Values& values) const;  // overwrites
+  // Components along (e_1, e_2, e_3).
+  void interpolate(Values const& values, TablePoint const& point, double velocity[3]) const;
+  std::size_t memory() const;  // bytes of one table of values
+
+ private:
+  template <int width>
+  void interpolate_with(Values const& values, TablePoint const& point, double velocity[3]) const;
+
+  int n_ring_, n_shell_;
+  InterpolationWindow window_;
+  int n_psi_, n_theta_, n_phi_;         // cells along [0, pi], [0, pi], [0, 2 pi)
+  int margin_, row_;                    // ghost nodes on each side; doubles between rows
+  Eigen::MatrixXd psi_up_;              // [n_psi + 1 + 2 margin, n_shell]
+  Eigen::MatrixXd theta_up_[2];         // [n_theta + 1 + 2 margin, n_ring], even and odd in theta
+  std::vector<double> phi_correction_;  // [n_mode]
+  AzimuthTransform transform_;
+};
+
+}  // namespace asterflow

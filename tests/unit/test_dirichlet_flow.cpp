@@ -1,0 +1,115 @@
+#include "surface/dirichlet_flow.hpp"
+
+#include "base/error.hpp"
+#include "base/random.hpp"
+#include "kernels/stokeslet.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace asterflow;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+std::shared_ptr<Shape const> ellipsoid(Vec3d semi_axes) {
+  ShapeSpec spec;
+  spec.kind = ShapeSpec::Kind::ellipsoid;
+  spec.semi_axes = semi_axes;
+  return make_shape(spec);
+}
+
+struct PointForce {
+  Vec3d position, force;
+  Vec3d velocity(Vec3d x) const {
+    Vec3d const r = x - position;
+    double const d = norm(r);
+    return 1.0 / (8.0 * pi) * (force / d + (dot(r, force) / (d * d * d)) * r);
+  }
+  PointArray velocity(ConstPoints x) const {
+    PointArray u;
+    for (Vec3d const y : x) u.push_back(velocity(y));
+    return u;
+  }
+};
+
+Vec3d scaled(Vec3d a, Vec3d b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+Vec3d direction(int i) {
+  return normalized(Vec3d{uniform_random(3, i, 0, 0) - 0.5, uniform_random(3, i, 0, 1) - 0.5, uniform_random(3, i, 0, 2) - 0.5});
+}
+
+// Largest error over 60 targets at each scale, relative to the largest velocity at that scale.
+double field_error(Vec3d semi_axes, Side side, int order, double accuracy, double source_scale) {
+  DirichletFlow const flow(Surface(ellipsoid(semi_axes), order), side, accuracy);
+  PointForce const source{source_scale * scaled(semi_axes, normalized(Vec3d{0.3, 0.8, 0.5})), {0.4, -0.7, 0.9}};
+  PointArray const w = source.velocity(flow.surface().nodes());
+  double worst = 0.0;
+  for (double const depth : {0.0, 1e-12, 1e-6, 1e-4, 1e-3, 1e-2, 0.1, 0.5, 0.9, 0.999, 1.0}) {
+    if (side == Side::exterior && depth == 1.0) continue;  // infinitely far
+    double const scale = side == Side::interior ? 1.0 - depth : 1.0 / (1.0 - depth);
+    PointArray targets;
+    for (int i = 0; i < 60; ++i) targets.push_back(scale * scaled(semi_axes, direction(i)));
+    PointArray u(targets.size());
+    flow.add_velocity(w, flow.plan(targets), u);
+    double error = 0.0, largest = 0.0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      error = std::max(error, norm(u[i] - source.velocity(targets[i])));
+      largest = std::max(largest, norm(source.velocity(targets[i])));
+    }
+    worst = std::max(worst, error / largest);
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST(DirichletFlow, meets_the_flow_of_an_outer_point_force_at_any_distance_inside) {
+  EXPECT_LT(field_error({5, 5, 5}, Side::interior, 16, 1e-7, 3.0), 1e-6);
+  EXPECT_LT(field_error({25, 15, 15}, Side::interior, 20, 1e-7, 3.0), 1e-6);
+  EXPECT_LT(field_error({15, 25, 15}, Side::interior, 20, 1e-7, 3.0), 1e-6);
+}
+
+TEST(DirichletFlow, meets_the_flow_of_an_inner_point_force_at_any_distance_outside) {
+  EXPECT_LT(field_error({5, 5, 5}, Side::exterior, 16, 1e-7, 0.3), 1e-6);
+  EXPECT_LT(field_error({2, 2, 3}, Side::exterior, 26, 1e-7, 0.3), 1e-6);
+}
+
+TEST(DirichletFlow, converges_spectrally_with_the_order) {
+  double const coarse = field_error({25, 15, 15}, Side::interior, 8, 1e-10, 2.5);
+  double const fine = field_error({25, 15, 15}, Side::interior, 24, 1e-10, 2.5);
+  EXPECT_LT(fine, coarse * 1e-5);  // the series falls by about 2.5 per order
+}
+
+TEST(DirichletFlow, low_order_serves_a_preconditioner) {
+  EXPECT_LT(field_error({25, 15, 15}, Side::interior, 6, 1e-3, 3.0), 2e-2);
+}
+
+TEST(DirichletFlow, sphere_has_its_exact_resistance) {
+  double const a = 5.0;
+  DirichletFlow const flow(Surface(ellipsoid({a, a, a}), 8), Side::exterior, 1e-8);
+  Matrix6 exact = Matrix6::Zero();
+  exact.diagonal() << Eigen::Vector3d::Constant(6.0 * pi * a), Eigen::Vector3d::Constant(8.0 * pi * a * a * a);
+  EXPECT_LT((flow.resistance() - exact).norm() / exact.norm(), 1e-10);
+}
+
+TEST(DirichletFlow, load_is_the_force_and_torque_of_the_sources_inside) {
+  for (Vec3d const axes : {Vec3d{2, 2, 2}, Vec3d{1, 2, 1}, Vec3d{2, 2, 1}}) {
+    DirichletFlow const flow(Surface(ellipsoid(axes), 20), Side::exterior, 1e-8);
+    PointForce const source{{0.1, -0.2, 0.15}, {0.4, -0.7, 0.9}};
+    Vector6 const load = flow.load(source.velocity(flow.surface().nodes()));
+    Vec3d const torque = cross(source.position, source.force);
+    Vector6 exact;
+    exact << source.force.x, source.force.y, source.force.z, torque.x, torque.y, torque.z;
+    EXPECT_LT((load - exact).norm(), 1e-6);
+  }
+}
+
+TEST(DirichletFlow, refuses_targets_on_the_wrong_side) {
+  DirichletFlow const flow(Surface(make_shape({}), 6), Side::interior, 1e-3);
+  PointArray const targets{{0, 0, 0.5}, {0, 0, 1.1}};
+  EXPECT_THROW(flow.plan(targets), NumericalError);
+}
