@@ -1,5 +1,8 @@
 #include "io/scene.hpp"
 
+#include "base/error.hpp"
+#include "io/scene_geometry.hpp"
+
 #include <fmt/format.h>
 #include <map>
 
@@ -12,6 +15,19 @@ void check_names(std::vector<Table> const& tables, std::vector<BodySpec> const& 
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (auto const [other, is_new] = first.emplace(bodies[i].name, i); !is_new)
       tables[i].fail("name", fmt::format("is the name of [[body]] #{} too", other->second + 1));
+}
+
+// Bodies neither overlap nor leave the periphery.
+void check_places(std::vector<Table> const& tables, Scene const& scene) {
+  std::vector<PlacedShape> placed;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    placed.emplace_back(scene.bodies[i]);
+    for (std::size_t j = 0; j < i; ++j)
+      if (gap_between(placed[j], placed[i]) <= 0.0)
+        tables[i].fail(fmt::format("overlaps [[body]] #{} \"{}\"; move one of them", j + 1, scene.bodies[j].name));
+    if (scene.periphery && gap_inside(placed[i], PlacedShape(scene.periphery->shape)) <= 0.0)
+      tables[i].fail("reaches outside the periphery; move it inwards or make it smaller");
+  }
 }
 
 Scene read_all(Table root) {
@@ -32,6 +48,7 @@ Scene read_all(Table root) {
   if (background) scene.background = read_background(*background);
   for (auto const& body : bodies) scene.bodies.push_back(read_body(body, scene.bodies.size() + 1));
   check_names(bodies, scene.bodies);
+  check_places(bodies, scene);
   scene.run = read_run(run, periphery.has_value());
   if (background && scene.run.interactions == Interactions::confined)
     background->fail("is a flow in unbounded fluid and cannot be combined with interactions = \"confined\"");

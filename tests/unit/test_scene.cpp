@@ -127,3 +127,37 @@ TEST(Scene, Reads_the_levels_of_the_drag_study) {
   EXPECT_EQ(scene.drag.levels[0], Interactions::open);
   EXPECT_NE(refusal("[drag]\nlevels = [\"opened\"]\n").find("must be one of local, open, confined"), std::string::npos);
 }
+
+TEST(Scene, Refuses_overlapping_bodies) {
+  std::string const second = "[[body]]\nshape = \"sphere\"\nradius = 2\nposition = [10, 6.9, 0]\n";
+  EXPECT_EQ(refusal(minimal + second),
+            "scene.toml: [[body]] #2: overlaps [[body]] #1 \"pnc\"; move one of them [line 18]");
+  EXPECT_EQ(refusal(minimal + second, {"body.1.position=[10, 7.001, 0]"}), "accepted");
+  EXPECT_NE(refusal(minimal + second, {"body.1.position=[10, 0, 0]"}).find("overlaps"), std::string::npos);
+}
+
+TEST(Scene, Sees_the_gap_between_turned_ellipsoids) {
+  std::string const pair = R"(
+[[body]]
+shape = "ellipsoid"
+semi_axes = [3, 1, 1]
+[[body]]
+shape = "ellipsoid"
+semi_axes = [3, 1, 1]
+position = [0, 3.9, 0]
+rotation_axis = [0, 0, 1]
+rotation_angle = 90
+)";
+  EXPECT_NE(refusal(pair).find("overlaps"), std::string::npos);
+  EXPECT_EQ(refusal(pair, {"body.1.position=[0, 4.0001, 0]"}), "accepted");
+  EXPECT_EQ(refusal(pair, {"body.1.rotation_angle=0"}), "accepted");
+}
+
+TEST(Scene, Refuses_a_body_that_reaches_outside_the_periphery) {
+  EXPECT_EQ(refusal(minimal, {"body.pnc.position=[20.1, 0, 0]"}).substr(0, 54),
+            "scene.toml: [[body]] #1: reaches outside the periphery");
+  EXPECT_NE(refusal(minimal, {"body.pnc.position=[0, 0, 10.001]"}).find("reaches outside"), std::string::npos);
+  EXPECT_EQ(refusal(minimal, {"body.pnc.position=[0, 0, 9.999]"}), "accepted");
+  EXPECT_NE(refusal(minimal, {"body.pnc.position=[100, 0, 0]"}).find("reaches outside"), std::string::npos);
+  EXPECT_NE(refusal(minimal, {"body.pnc.radius=40"}).find("reaches outside"), std::string::npos);
+}
