@@ -1,0 +1,45 @@
+#pragma once
+// Quantities of rigid bodies: six-vectors stack a linear part on an angular part
+// (velocity and angular velocity, force and torque about the body's centre).
+
+#include "base/vec3.hpp"
+
+#include <Eigen/Core>
+
+namespace asterflow {
+
+using Matrix3 = Eigen::Matrix<double, 3, 3>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+inline Eigen::Vector3d to_eigen(Vec3d a) { return {a.x, a.y, a.z}; }
+inline Vec3d to_vec3(Eigen::Vector3d const& a) { return {a[0], a[1], a[2]}; }
+inline Vec3d operator*(Matrix3 const& m, Vec3d a) { return to_vec3(m * to_eigen(a)); }
+
+// cross_matrix(a) b = a x b
+inline Matrix3 cross_matrix(Vec3d a) {
+  Matrix3 m;
+  m << 0, -a.z, a.y, a.z, 0, -a.x, -a.y, a.x, 0;
+  return m;
+}
+
+// Where a body is: position of its centre (um) and rotation from the body frame to space.
+struct RigidPose {
+  Vec3d position;
+  Matrix3 rotation = Matrix3::Identity();
+  Vec3d point(Vec3d in_body_frame) const { return position + rotation * in_body_frame; }
+};
+
+// How the pose of a body at the end of the step depends on its velocity U and angular velocity Omega there:
+//   centre_new   = predicted.position + displacement_per_velocity (U - predicted_velocity)
+//   rotation_new = (I + [phi x]) predicted.rotation,   phi = turn_per_angular_velocity (Omega - predicted_angular_velocity)
+// For dx/dt = (a0 x_new - ...) / dt the two factors are dt / a0 (the second one to the order of the rotation in a step).
+struct BodyMotionMap {
+  RigidPose now{};        // at the beginning of the step
+  RigidPose predicted{};  // at its end, for the predicted velocities
+  Vec3d predicted_velocity{}, predicted_angular_velocity{};     // um/s, 1/s
+  double displacement_per_velocity = 0.0;                       // s
+  Matrix3 turn_per_angular_velocity = Matrix3::Zero();          // s
+};
+
+}  // namespace asterflow

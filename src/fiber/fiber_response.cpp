@@ -1,0 +1,302 @@
+#include "fiber/fiber_response.hpp"
+
+#include "base/error.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace asterflow {
+
+namespace {
+
+using Map = Eigen::Map<Eigen::MatrixXd>;
+
+// A matrix in this thread's memory, kept from fiber to fiber.
+template <int Slot>
+Map scratch(Eigen::Index rows, Eigen::Index columns) {
+  thread_local std::vector<double> memory;
+  if (memory.size() < static_cast<std::size_t>(rows * columns)) memory.resize(rows * columns);
+  return {memory.data(), rows, columns};
+}
+
+// Any unit vector normal to the unit vector t.
+Vec3d any_normal(Vec3d t) {
+  bool const along_x = std::abs(t.x) > 0.6;
+  return normalized(cross(t, along_x ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}));
+}
+
+// Parallel transport of the normal vector n from the unit tangent `from` to the unit tangent `to`.
+Vec3d transported(Vec3d n, Vec3d from, Vec3d to) {
+  double const c = 1.0 + dot(from, to);
+  if (c < 1e-6) return any_normal(to);
+  Vec3d const moved = n - (dot(n, to) / c) * (from + to);
+  return normalized(moved - dot(moved, to) * to);
+}
+
+}  // namespace
+
+void FiberResponse::prepare(FiberStep const& step, Centreline const& predicted, ConstPoints history, Points nodes,
+                            Vector weights) {
+  step_ = step;
+  set_geometry(predicted, history, nodes, weights);
+  set_directions(predicted.tangents);
+  factorise(predicted);
+  set_body_resistance();
+}
+
+void FiberResponse::set_geometry(Centreline const& predicted, ConstPoints history, Points nodes, Vector weights) {
+  FiberBasis const& basis = *step_.basis;
+  int const n = basis.n_node, m = basis.n_tangent;
+  length_ = predicted.length;
+  rate_ = step_.scheme.a0 / step_.scheme.dt;
+  minus_end_ = predicted.minus_end;
+  plus_end_ = asterflow::plus_end(predicted);
+  weights_ = length_ * basis.gauss.weights;
+  nodes_.assign(n, minus_end_);
+  tangents_.assign(n, Vec3d{});
+  velocity_.resize(n);
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < n; ++i) {
+      nodes_[i] += (length_ * basis.position(i, j)) * predicted.tangents[j];
+      tangents_[i] += basis.tangent(i, j) * predicted.tangents[j];
+    }
+  for (int i = 0; i < n; ++i) {
+    tangents_[i] = normalized(tangents_[i]);
+    velocity_[i] = (step_.scheme.a0 * nodes_[i] - history[i]) / step_.scheme.dt;
+    nodes[i] = nodes_[i];
+    weights[i] = weights_[i];
+  }
+}
+
+void FiberResponse::set_directions(PointArray const& tangents) {
+  std::size_t const m = tangents.size();
+  directions_.resize(2 * m);
+  directions_[0] = any_normal(tangents[0]);
+  for (std::size_t j = 0; j < m; ++j) {
+    if (j > 0) directions_[2 * j] = transported(directions_[2 * j - 2], tangents[j - 1], tangents[j]);
+    directions_[2 * j + 1] = cross(tangents[j], directions_[2 * j]);
+  }
+}
+
+void FiberResponse::set_motions(Eigen::Ref<Eigen::MatrixXd> motions) {
+  FiberBasis const& basis = *step_.basis;
+  int const n = basis.n_node;
+  auto const column = [&](int unknown, auto const& motion_of_node, Vec3d motion_of_tip) {
+    for (int i = 0; i < n; ++i) {
+      Vec3d const motion = motion_of_node(i);
+      for (int k = 0; k < 3; ++k) motions(3 * i + k, unknown) = motion[k];
+    }
+    tip_motion_.col(unknown) = to_eigen(motion_of_tip);
+  };
+  tip_motion_.resize(3, n_unknown_);
+  for (int k = 0; k < first_rotation_; ++k) {
+    Vec3d e;
+    e[k] = 1.0;
+    column(k, [&](int) { return e; }, e);
+  }
+  for (int k = first_rotation_; k < first_turn_; ++k) {  // axis t x n turns t towards n
+    Vec3d const axis = k == first_rotation_ ? directions_[1] : -directions_[0];
+    column(k, [&](int i) { return cross(axis, nodes_[i] - minus_end_); }, cross(axis, plus_end_ - minus_end_));
+  }
+  for (int k = first_turn_; k < n_unknown_; ++k) {
+    int const direction = 2 + k - first_turn_, j = direction / 2;
+    Vec3d const d = length_ * directions_[direction];
+    column(k, [&](int i) { return basis.position(i, j) * d; }, basis.lobatto.weights[j] * d);
+  }
+}
+
+// Lower triangle of E int dX_ss . X_ss ds.
+void FiberResponse::set_bending(Eigen::Ref<Eigen::MatrixXd> matrix) const {
+  double const stiffness = step_.bending_rigidity / length_;
+  auto const& bending = step_.basis->bending;
+  for (int column = first_turn_; column < n_unknown_; ++column) {
+    int const b = 2 + column - first_turn_;
+    for (int row = column; row < n_unknown_; ++row) {
+      int const a = 2 + row - first_turn_;
+      matrix(row, column) += stiffness * bending(a / 2, b / 2) * dot(directions_[a], directions_[b]);
+    }
+  }
+}
+
+// Virtual work of the drag at the predicted velocity without incident flow, of the applied forces and of the bending
+// moments of the predicted shape.
+void FiberResponse::set_forcing(PointArray const& tangents, Eigen::Ref<Eigen::MatrixXd const> motions,
+                                Eigen::Ref<Eigen::VectorXd> forcing) const {
+  int const n = step_.basis->n_node, m = step_.basis->n_tangent;
+  std::array<Vec3d, max_fiber_nodes> force;
+  for (int i = 0; i < n; ++i) force[i] = weights_[i] * (applied(i) - drag(i, velocity_[i]));
+  forcing.noalias() = motions.transpose() * flat(ConstPoints(force.data(), n));
+  Vec3d const tip = step_.tip.force - step_.tip.stiffness * (plus_end_ - step_.tip.anchor);
+  forcing.noalias() += tip_motion_.transpose() * to_eigen(tip);
+  double const stiffness = step_.bending_rigidity / length_;
+  for (int j = 1; j < m; ++j) {
+    Vec3d moment;
+    for (int k = 0; k < m; ++k) moment += step_.basis->bending(j, k) * (tangents[k] - tangents[j]);
+    for (int k = 0; k < 2; ++k) forcing[first_turn_ + 2 * (j - 1) + k] -= stiffness * dot(directions_[2 * j + k], moment);
+  }
+}
+
+void FiberResponse::factorise(Centreline const& predicted) {
+  int const n = step_.basis->n_node;
+  first_rotation_ = step_.minus_end == MinusEnd::free ? 3 : 0;
+  first_turn_ = first_rotation_ + (step_.minus_end == MinusEnd::clamped ? 0 : 2);
+  n_unknown_ = first_turn_ + 2 * (step_.basis->n_tangent - 1);
+
+  Map motions = scratch<0>(3 * n, n_unknown_), drags = scratch<1>(3 * n, n_unknown_);
+  set_motions(motions);
+  for (int k = 0; k < n_unknown_; ++k)
+    for (int i = 0; i < n; ++i) {
+      Vec3d const d = weights_[i] * drag(i, {motions(3 * i, k), motions(3 * i + 1, k), motions(3 * i + 2, k)});
+      for (int j = 0; j < 3; ++j) drags(3 * i + j, k) = d[j];
+    }
+  lower_.resize(n_unknown_, n_unknown_);
+  lower_.noalias() = rate_ * (drags.transpose() * motions);
+  lower_.noalias() += tip_motion_.transpose() * step_.tip.stiffness * tip_motion_;
+  set_bending(lower_);
+
+  reduced_.resize(n_unknown_, 3 * n + 7);
+  reduced_.leftCols(3 * n) = drags.transpose();
+  set_forcing(predicted.tangents, motions, reduced_.col(3 * n));
+  for (int k = 0; k < 6; ++k) {
+    auto column = reduced_.col(3 * n + 1 + k);
+    column.setZero();
+    if (!step_.body) continue;
+    Vector6 const q = Vector6::Unit(k);
+    for (int i = 0; i < n; ++i)
+      column += rate_ * reduced_.middleCols<3>(3 * i) * to_eigen(body_motion(q, nodes_[i]));
+    column += tip_motion_.transpose() * (step_.tip.stiffness * to_eigen(body_motion(q, plus_end_)));
+  }
+  Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> const llt(lower_);
+  if (llt.info() != Eigen::Success)
+    throw NumericalError("the implicit problem of a fiber is not positive definite (length " + std::to_string(length_) +
+                         " um, dt " + std::to_string(step_.scheme.dt) + " s)");
+  llt.matrixL().solveInPlace(reduced_);
+}
+
+void FiberResponse::set_body_resistance() {
+  body_resistance_.setZero();
+  if (!step_.body) return;
+  int const n = step_.basis->n_node;
+  std::array<Vec3d, max_fiber_nodes> const no_flow{};
+  for (int k = 0; k < 6; ++k) {
+    std::array<Vec3d, max_fiber_nodes> f{};
+    Vector6 load = Vector6::Zero();
+    add_linear({no_flow.data(), static_cast<std::size_t>(n)}, Vector6::Unit(k), {f.data(), static_cast<std::size_t>(n)}, load);
+    body_resistance_.col(k) = -load;
+  }
+}
+
+Vec3d FiberResponse::drag(int i, Vec3d velocity) const {
+  return (1.0 / step_.mobility) * (velocity - (0.5 * dot(tangents_[i], velocity)) * tangents_[i]);
+}
+
+Vec3d FiberResponse::applied(int i) const { return step_.load.external + step_.load.motor * tangents_[i]; }
+
+Vec3d FiberResponse::body_motion(Vector6 const& q, Vec3d point) const {
+  BodyMotionMap const& body = *step_.body;
+  Vec3d const turn = to_vec3(body.turn_per_angular_velocity * q.tail<3>());
+  Vec3d const held = step_.minus_end == MinusEnd::clamped ? point : minus_end_;
+  return body.displacement_per_velocity * to_vec3(q.head<3>()) + cross(turn, held - body.predicted.position);
+}
+
+Vector6 FiberResponse::predicted_motion() const {
+  Vector6 q = Vector6::Zero();
+  if (step_.body) q << to_eigen(step_.body->predicted_velocity), to_eigen(step_.body->predicted_angular_velocity);
+  return q;
+}
+
+void FiberResponse::add_body_load(Vec3d point, Vec3d force, Vector6& load) const {
+  load.head<3>() += to_eigen(force);
+  load.tail<3>() += to_eigen(cross(point - step_.body->predicted.position, force));
+}
+
+// f += (a0/dt) ((1/w) reduced_drag^T reduced + drag(body motion)).
+void FiberResponse::respond(Eigen::Ref<Eigen::VectorXd const> reduced, Vector6 const& q, Points f) const {
+  int const n = step_.basis->n_node;
+  std::array<Vec3d, max_fiber_nodes> part;
+  flat(Points(part.data(), n)).noalias() = reduced_.leftCols(3 * n).transpose() * reduced;
+  for (int i = 0; i < n; ++i) {
+    f[i] += (rate_ / weights_[i]) * part[i];
+    if (step_.body) f[i] += rate_ * drag(i, body_motion(q, nodes_[i]));
+  }
+}
+
+void FiberResponse::add_linear(ConstPoints u, Vector6 const& q, Points f, Vector6& load) const {
+  int const n = step_.basis->n_node;
+  std::array<Vec3d, max_fiber_nodes> change{};
+  Eigen::VectorXd reduced = reduced_.leftCols(3 * n) * flat(u);
+  if (step_.body) reduced.noalias() -= reduced_.rightCols<6>() * q;
+  respond(reduced, q, {change.data(), static_cast<std::size_t>(n)});
+  for (int i = 0; i < n; ++i) {
+    change[i] -= drag(i, u[i]);
+    f[i] += change[i];
+    if (step_.body) add_body_load(nodes_[i], -weights_[i] * change[i], load);
+  }
+  if (!step_.body || step_.tip.stiffness.isZero(0.0)) return;
+  lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(reduced);
+  Vec3d const tip = to_vec3(tip_motion_ * reduced) + body_motion(q, plus_end_);
+  add_body_load(plus_end_, -(step_.tip.stiffness * tip), load);
+}
+
+void FiberResponse::add_affine(Points f, Vector6& load) const {
+  int const n = step_.basis->n_node;
+  Vector6 const q = -predicted_motion();
+  std::array<Vec3d, max_fiber_nodes> total{};
+  Eigen::VectorXd reduced = reduced_.col(3 * n);
+  if (step_.body) reduced.noalias() -= reduced_.rightCols<6>() * q;
+  respond(reduced, q, {total.data(), static_cast<std::size_t>(n)});
+  for (int i = 0; i < n; ++i) {
+    total[i] += drag(i, velocity_[i]);
+    f[i] += total[i] - step_.load.motor * tangents_[i];
+    if (step_.body) add_body_load(nodes_[i], weights_[i] * (applied(i) - total[i]), load);
+  }
+  if (!step_.body) return;
+  lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(reduced);
+  Vec3d const tip = plus_end_ + to_vec3(tip_motion_ * reduced) + body_motion(q, plus_end_);
+  add_body_load(plus_end_, step_.tip.force - step_.tip.stiffness * (tip - step_.tip.anchor), load);
+}
+
+Eigen::VectorXd FiberResponse::unknowns(ConstPoints u, Vector6 const& q) const {
+  int const n = step_.basis->n_node;
+  Eigen::VectorXd y = reduced_.col(3 * n) + reduced_.leftCols(3 * n) * flat(u);
+  if (step_.body) y.noalias() -= reduced_.rightCols<6>() * (q - predicted_motion());
+  lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(y);
+  return y;
+}
+
+Vec3d FiberResponse::tip_force(ConstPoints u, Vector6 const& q) const {
+  Vec3d tip = plus_end_ + to_vec3(tip_motion_ * unknowns(u, q));
+  if (step_.body) tip += body_motion(q - predicted_motion(), plus_end_);
+  return step_.tip.force - step_.tip.stiffness * (tip - step_.tip.anchor);
+}
+
+void FiberResponse::advance(ConstPoints u, Vector6 const& q, RigidPose const* new_pose, Centreline const& predicted,
+                            Centreline& shape) const {
+  Eigen::VectorXd const y = unknowns(u, q);
+  std::size_t const m = predicted.tangents.size();
+  shape.length = length_;
+  shape.minus_end = minus_end_;
+  shape.tangents = predicted.tangents;
+  Matrix3 rotation = Matrix3::Identity();
+  if (step_.body) {
+    Matrix3 const turn = new_pose->rotation * step_.body->predicted.rotation.transpose();
+    shape.minus_end = new_pose->position + turn * (minus_end_ - step_.body->predicted.position);
+    if (step_.minus_end == MinusEnd::clamped) rotation = turn;
+  }
+  for (int k = 0; k < first_rotation_; ++k) shape.minus_end[k] += y[k];
+  if (first_turn_ > first_rotation_) {
+    Vec3d const turn = y[first_rotation_] * directions_[1] - y[first_rotation_ + 1] * directions_[0];
+    double const angle = norm(turn);
+    if (angle > 0) rotation = Eigen::AngleAxisd(angle, to_eigen(turn / angle)).toRotationMatrix();
+  }
+  for (std::size_t j = 0; j < m; ++j) {
+    Vec3d t = predicted.tangents[j];
+    for (int k = 0; k < 2 && j > 0; ++k) t += y[first_turn_ + 2 * (j - 1) + k] * directions_[2 * j + k];
+    shape.tangents[j] = normalized(rotation * t);
+  }
+}
+
+}  // namespace asterflow

@@ -1,0 +1,86 @@
+#pragma once
+// One implicit step of one inextensible fiber, by the principle of virtual work [Maxian, Mogilner & Donev 2021]:
+//   int dX . [ (1/c) (I - t t / 2) (V - u) - f_applied ] ds  +  E int dX_ss . X_ss ds  -  dX(L) . F_tip  =  0
+// for all inextensible motions dX that its minus end allows; V = (a0 X - history) / dt is the velocity at fixed material
+// coordinate, u the incident flow, c = ln(1/(e eps^2)) / (8 pi mu) the local slender-body mobility. Free ends need no
+// further condition. The unknowns y are, about a predicted shape of the new time level,
+//   translation (3, if free), rotation about the minus end (2, unless clamped), and the two components of the turn of
+//   every further tangent against the first one (2 (m - 1)); rigid motions bend nothing, so forces and torques balance.
+// Eliminating them leaves, with q = (U, Omega) of the body that holds the minus end,
+//   force density on the fluid      f     = f_0 + R u + C q          [n_node, 3]  pN/um
+//   force and torque on that body   load  = l_0 + D u - S q          [6]          pN, pN um
+// The matrix of y is symmetric and positive definite: A = lower lower^T.
+
+#include "base/arrays.hpp"
+#include "base/rigid.hpp"
+#include "base/time_scheme.hpp"
+#include "fiber/centreline.hpp"
+#include "fiber/fiber_basis.hpp"
+#include "fiber/fiber_ends.hpp"
+
+namespace asterflow {
+
+// Everything a step of one fiber depends on.
+struct FiberStep {
+  FiberBasis const* basis = nullptr;
+  TimeScheme scheme{};
+  double bending_rigidity = 0.0;  // pN um^2
+  double mobility = 0.0;          // c, um^2 / (pN s)
+  MinusEnd minus_end = MinusEnd::free;
+  BodyMotionMap const* body = nullptr;  // null: not attached
+  FiberLoad load;
+  TipLoad tip;
+};
+
+class FiberResponse {
+ public:
+  // `predicted`: the shape about which the step is linear, with the new length, minus end on its site.
+  // `history` [n_node]: a1 X_now + a2 X_before at the nodes' material coordinates, um.
+  // `nodes`, `weights` [n_node]: overwritten by the predicted positions (um) and the length that each node stands for (um).
+  void prepare(FiberStep const& step, Centreline const& predicted, ConstPoints history, Points nodes, Vector weights);
+
+  // f += R u + C q, load += D u - S q. Without a body q and load are not touched.
+  void add_linear(ConstPoints u, Vector6 const& q, Points f, Vector6& load) const;
+  // f += f_0 without what the motors' cargo gives back, load += l_0.
+  void add_affine(Points f, Vector6& load) const;
+  // S: resistance that the fiber adds to its body when the incident flow is held fixed.
+  Matrix6 const& body_resistance() const { return body_resistance_; }
+
+  // The new shape, from the incident flow and the body's motion and (exact) pose.
+  void advance(ConstPoints u, Vector6 const& q, RigidPose const* new_pose, Centreline const& predicted,
+               Centreline& shape) const;
+
+  // Force on the plus end, pN, at the new time level.
+  Vec3d tip_force(ConstPoints u, Vector6 const& q) const;
+
+ private:
+  void set_geometry(Centreline const& predicted, ConstPoints history, Points nodes, Vector weights);
+  void set_directions(PointArray const& tangents);
+  void set_motions(Eigen::Ref<Eigen::MatrixXd> motions);
+  void set_bending(Eigen::Ref<Eigen::MatrixXd> matrix) const;
+  void set_forcing(PointArray const& tangents, Eigen::Ref<Eigen::MatrixXd const> motions, Eigen::Ref<Eigen::VectorXd> forcing) const;
+  void factorise(Centreline const& predicted);
+  void set_body_resistance();
+
+  Vec3d drag(int i, Vec3d velocity) const;           // (1/c) (I - t t / 2) velocity
+  Vec3d applied(int i) const;                        // external force and motors, pN/um
+  Vec3d body_motion(Vector6 const& q, Vec3d point) const;  // change of the predicted point by the body's motion, um
+  Vector6 predicted_motion() const;
+  void add_body_load(Vec3d point, Vec3d force, Vector6& load) const;
+  void respond(Eigen::Ref<Eigen::VectorXd const> reduced, Vector6 const& q, Points f) const;
+  Eigen::VectorXd unknowns(ConstPoints u, Vector6 const& q) const;
+
+  FiberStep step_;
+  double length_ = 0.0, rate_ = 0.0;                     // um; a0 / dt, 1/s
+  int n_unknown_ = 0, first_rotation_ = 0, first_turn_ = 0;
+  Vec3d minus_end_, plus_end_;                           // um, predicted
+  PointArray nodes_, tangents_, velocity_;               // [n_node] predicted: um, -, um/s
+  Eigen::VectorXd weights_;                              // [n_node] um
+  PointArray directions_;                                // [n_tangent, 2] normal to the predicted tangents, parallel frame
+  Eigen::Matrix<double, 3, Eigen::Dynamic> tip_motion_;  // [3, n_unknown] motion of the plus end
+  Eigen::MatrixXd lower_;                                // [n_unknown, n_unknown]
+  Eigen::MatrixXd reduced_;                              // [n_unknown, 3 n_node + 7] lower^-1 (drag of motions | forcing | body columns)
+  Matrix6 body_resistance_ = Matrix6::Zero();
+};
+
+}  // namespace asterflow

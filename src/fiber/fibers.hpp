@@ -1,0 +1,110 @@
+#pragma once
+// All flexible fibers of a scene: their shapes at the last accepted times, and one implicit step of all of them at once.
+// A fiber is known by its index for ever. A step goes
+//   begin_step();  plan(i) = ...;  prepare(dt, bodies);                     linear problem, geometry of the new time
+//   add_affine_response / add_linear_response                              any number of times
+//   advance(u, q, poses);  error_estimate();  accept()                     or simply begin again with another dt
+// Second order in time (BDF2); a fiber without history makes its first step by backward Euler. See fiber_response.hpp
+// for the equations. Flat arrays over nodes are ordered by fiber, nodes from minus to plus end.
+
+#include "fiber/centreline.hpp"
+#include "fiber/fiber_ends.hpp"
+#include "fiber/fiber_response.hpp"
+
+#include <span>
+#include <vector>
+
+namespace asterflow {
+
+struct FiberProperties {
+  double bending_rigidity = 10.0;  // pN um^2
+  double radius = 0.0125;          // um
+  FiberLoad load{};                // unless a step plans another one
+  TipLoad tip{};
+  int n_node = 16;                 // hydrodynamic nodes
+};
+
+// Local slender-body mobility c = ln(1 / (e eps^2)) / (8 pi mu), eps = radius / length, um^2 / (pN s). Slender-body
+// theory needs eps << 1; fibers thicker than a quarter of their length keep the value of eps = 1/4.
+double slender_body_mobility(double length, double radius, double viscosity);
+
+class Fibers {
+ public:
+  // What the next step does to one fiber, besides the flow.
+  struct Plan {
+    double length = 0.0;  // um, at the end of the step
+    FiberLoad load;
+    TipLoad tip;
+    MinusEndSite site;
+    bool is_newborn = false;  // start again as a straight fiber at `site`, wherever it was before
+  };
+
+  explicit Fibers(double viscosity);  // pN s / um^2
+
+  // A fiber whose minus end is at its site. Returns its index.
+  std::size_t add(FiberProperties const& properties, MinusEndSite const& site, Centreline const& shape);
+
+  std::size_t count() const { return fibers_.size(); }
+  std::size_t node_count() const { return nodes_.size(); }
+  std::size_t first_node(std::size_t fiber) const { return first_node_[fiber]; }  // also for fiber == count()
+
+  // ---- Step ----
+  void begin_step();  // plans: nothing changes
+  Plan& plan(std::size_t fiber) { return fibers_[fiber].plan; }
+  // `bodies` [n_body] must stay alive until the step ends.
+  void prepare(double dt, std::span<BodyMotionMap const> bodies);
+
+  ConstPoints nodes() const { return nodes_; }       // [n_node] um, predicted for the end of the step
+  ConstVector weights() const { return weights_; }   // [n_node] um, quadrature weights along the fibers
+
+  // f [n_node] += R u + C q, loads [n_body] += D u - S q: force density on the fluid (pN/um), force (pN) and torque about
+  // the centre (pN um) on the bodies, for the incident flow u [n_node] (um/s) and the bodies' motions q [n_body].
+  void add_linear_response(ConstPoints u, std::span<Vector6 const> q, Points f, std::span<Vector6> loads) const;
+  // f += f_0, loads += l_0: what remains at u = 0, q = 0.
+  void add_affine_response(Points f, std::span<Vector6> loads) const;
+  // resistances [n_body] += S, what attached fibers add to the resistance of their body at fixed incident flow.
+  void add_body_resistance(std::span<Matrix6> resistances) const;
+
+  // Trial shapes from the solution and the bodies' poses at the end of the step.
+  void advance(ConstPoints u, std::span<Vector6 const> q, std::span<RigidPose const> poses);
+  // Largest local error of a node's position in the trial step, um; fibers in their first step do not count.
+  double error_estimate() const;
+  void accept();
+
+  // ---- State at the last accepted time ----
+  Centreline const& shape(std::size_t fiber) const { return fibers_[fiber].past[0]; }
+  Centreline const& trial_shape(std::size_t fiber) const { return fibers_[fiber].trial; }
+  MinusEndSite const& site(std::size_t fiber) const { return fibers_[fiber].site; }
+  FiberProperties const& properties(std::size_t fiber) const { return fibers_[fiber].properties; }
+  double elastic_energy() const;  // pN um
+
+ private:
+  struct Fiber {
+    FiberProperties properties;
+    MinusEndSite site;
+    Plan plan;
+    Centreline past[3];  // at the last accepted times, latest first
+    int n_past = 1;
+    Centreline newborn, predicted, trial;
+    PointArray history, extrapolated, sampled;  // [n_node] a1 X_now + a2 X_before; quadratic extrapolation; buffer
+    std::vector<double> coordinates;            // [n_node] buffer
+    FiberResponse response;
+    double error = 0.0;  // um
+  };
+
+  void lay_out();
+  void predict(Fiber& fiber, std::span<BodyMotionMap const> bodies) const;
+  void set_history(Fiber& fiber, TimeScheme const& scheme) const;
+  TimeScheme scheme_of(Fiber const& fiber) const;
+  void estimate_error(Fiber& fiber) const;
+
+  double viscosity_;
+  double dt_ = 0.0, dt_1_ = 0.0, dt_2_ = 0.0;  // s, this step and the two accepted before it
+  std::vector<Fiber> fibers_;
+  std::vector<std::size_t> first_node_{0};
+  PointArray nodes_;
+  std::vector<double> weights_;
+  mutable std::vector<Vector6> fiber_loads_;  // [n_fiber] summed in order, whatever the number of threads
+};
+
+}  // namespace asterflow
