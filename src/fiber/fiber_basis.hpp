@@ -15,8 +15,8 @@ struct FiberBasis {
   explicit FiberBasis(int n_node);
 
   int n_node, n_tangent;
-  QuadratureRule gauss;    // [n_node]    hydrodynamic nodes
-  QuadratureRule lobatto;  // [n_tangent] tangent nodes; the weights integrate a tangent from 0 to 1
+  UnitRule gauss;    // [n_node]    hydrodynamic nodes
+  UnitRule lobatto;  // [n_tangent] tangent nodes; the weights integrate a tangent from 0 to 1
   Eigen::MatrixXd tangent;      // [n_node, n_tangent]    values at the tangent nodes -> at the hydrodynamic nodes
   Eigen::MatrixXd position;     // [n_node, n_tangent]    ... -> integral from 0 to the hydrodynamic nodes
   Eigen::MatrixXd derivative;   // [n_node, n_tangent]    ... -> d/d alpha at the hydrodynamic nodes

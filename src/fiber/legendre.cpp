@@ -1,6 +1,7 @@
 #include "fiber/legendre.hpp"
 
 #include "base/error.hpp"
+#include "linalg/quadrature.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -25,25 +26,15 @@ LegendrePair legendre_pair(int n, double x) {
 
 }  // namespace
 
-QuadratureRule gauss_rule(int n) {
-  ASTERFLOW_REQUIRE(n >= 1);
-  QuadratureRule rule{Eigen::VectorXd(n), Eigen::VectorXd(n)};
-  for (int i = 0; i < n; ++i) {
-    double x = -std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 1.0;
-    for (int iteration = 0; iteration < 6; ++iteration) {  // Newton, quadratic from a guess good to 1e-3
-      auto const [p, q] = legendre_pair(n, x);
-      slope = n * (x * p - q) / (x * x - 1);
-      x -= p / slope;
-    }
-    rule.nodes[i] = 0.5 * (1 + x);
-    rule.weights[i] = 1.0 / ((1 - x * x) * slope * slope);
-  }
-  return rule;
+UnitRule gauss_rule(int n) {
+  auto const& rule = gauss_legendre(n);
+  using Map = Eigen::Map<Eigen::VectorXd const>;
+  return {0.5 * (1.0 + Map(rule.nodes.data(), n).array()), 0.5 * Map(rule.weights.data(), n)};
 }
 
-QuadratureRule lobatto_rule(int n) {
+UnitRule lobatto_rule(int n) {
   ASTERFLOW_REQUIRE(n >= 2);
-  QuadratureRule rule{Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  UnitRule rule{Eigen::VectorXd(n), Eigen::VectorXd(n)};
   for (int i = 0; i < n; ++i) {
     double x = -std::cos(std::numbers::pi * i / (n - 1));
     for (int iteration = 0; iteration < 20; ++iteration) {  // interior nodes are the roots of P'_{n-1}
@@ -85,7 +76,7 @@ Eigen::MatrixXd legendre_integrals(Eigen::VectorXd const& alpha, int n_degree) {
   return integral;
 }
 
-Eigen::MatrixXd legendre_transform(QuadratureRule const& lobatto) {
+Eigen::MatrixXd legendre_transform(UnitRule const& lobatto) {
   int const n = static_cast<int>(lobatto.nodes.size());
   Eigen::MatrixXd transform = legendre_values(lobatto.nodes, n).transpose() * lobatto.weights.asDiagonal();
   for (int k = 0; k < n; ++k) transform.row(k) *= k + 1 < n ? 2 * k + 1 : n - 1;  // discrete norms of P_k
