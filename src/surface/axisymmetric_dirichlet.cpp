@@ -4,6 +4,7 @@
 #include "base/parallel.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -27,13 +28,36 @@ LoadVelocity velocity_of_load(int m, CylindricalPoint x) {
   return u / (8.0 * pi);
 }
 
+// result = a x for two columns, reading a once, four of its columns at a time.
+void multiply(MatrixXd const& a, Eigen::Matrix<double, Eigen::Dynamic, 2> const& x, ShellMode& result) {
+  result.setZero(a.rows(), 2);
+  Eigen::Index const n = a.rows();
+  double* const re = result.col(0).data();
+  double* const im = result.col(1).data();
+  for (Eigen::Index j = 0; j < a.cols(); j += 4) {
+    double const* column[4];
+    double x_re[4], x_im[4];
+    for (int k = 0; k < 4; ++k) {
+      Eigen::Index const c = std::min(j + k, a.cols() - 1);
+      column[k] = a.col(c).data();
+      x_re[k] = j + k < a.cols() ? x(c, 0) : 0.0;
+      x_im[k] = j + k < a.cols() ? x(c, 1) : 0.0;
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+      double const a0 = column[0][i], a1 = column[1][i], a2 = column[2][i], a3 = column[3][i];
+      re[i] += a0 * x_re[0] + a1 * x_re[1] + a2 * x_re[2] + a3 * x_re[3];
+      im[i] += a0 * x_im[0] + a1 * x_im[1] + a2 * x_im[2] + a3 * x_im[3];
+    }
+  }
+}
+
 }  // namespace
 
-AxisymmetricDirichlet::AxisymmetricDirichlet(Surface const& surface, Side side, int n_shell, double digits)
+AxisymmetricDirichlet::AxisymmetricDirichlet(Surface const& surface, Side side, int n_shell, double accuracy)
     : surface_(surface), side_(side), n_shell_(n_shell), n_ring_(surface.grid().n_ring()),
       transform_(surface.grid().n_azimuth()) {
   ASTERFLOW_REQUIRE(surface.shape().axisymmetric());
-  ModalRows const rows(surface_, digits);
+  ModalRows const rows(surface_, std::clamp(1.5 - std::log10(accuracy), 4.0, 13.0));
   std::vector<ModalRowSet> rings(n_ring_);
   parallel_for("AxisymmetricDirichlet::rings", n_ring_,
                [&](long j) { rings[j] = rows.on_surface(surface_.grid().polar_angles()[j]); });
@@ -43,14 +67,20 @@ AxisymmetricDirichlet::AxisymmetricDirichlet(Surface const& surface, Side side, 
     Eigen::PartialPivLU<MatrixXd> const inverse(boundary_operator(static_cast<int>(m), rings).transpose());
     MatrixXd& shells = shell_operators_[m];
     shells = inverse.solve(shells.transpose()).transpose();
-    for (int c = 0; c < 3; ++c)  // shell 0 is the surface: exactly the boundary data
-      for (int j = 0; j < n_ring_; ++j) {
-        shells.row((c * n_shell_) * n_ring_ + j).setZero();
-        shells((c * n_shell_) * n_ring_ + j, c * n_ring_ + j) = 1.0;
-      }
+    shells.topRows(3 * n_ring_).setIdentity();  // shell 0 is the surface: exactly the boundary data
     if (side_ == Side::exterior && m < 2)
       load_operators_[m] = inverse.solve(load_of_density(static_cast<int>(m)).transpose()).transpose();
   });
+  drop_negligible_shells(accuracy);
+}
+
+void AxisymmetricDirichlet::drop_negligible_shells(double accuracy) {
+  for (MatrixXd& shells : shell_operators_) {
+    int kept = n_shell_;
+    while (kept > 1 && shells.middleRows((kept - 1) * 3 * n_ring_, 3 * n_ring_).lpNorm<Eigen::Infinity>() < 0.1 * accuracy)
+      --kept;
+    shells = shells.topRows(kept * 3 * n_ring_).eval();
+  }
 }
 
 CylindricalPoint AxisymmetricDirichlet::shell_node(int ring, int shell) const {
@@ -128,7 +158,7 @@ void AxisymmetricDirichlet::assemble_shells(ModalRows const& rows) {
         if (is_infinity) u.col(1).setZero();  // the Stokeslet alone falls as s
         velocity += u * loads[m];
       }
-      for (int c = 0; c < 3; ++c) shell_operators_[m].row((c * n_shell_ + k) * n_ring_ + j) = scale * velocity.row(c);
+      for (int c = 0; c < 3; ++c) shell_operators_[m].row((k * 3 + c) * n_ring_ + j) = scale * velocity.row(c);
     }
   });
 }
@@ -163,7 +193,7 @@ void AxisymmetricDirichlet::shell_modes(ConstPoints boundary_velocity, std::vect
   std::vector<BoundaryMode> const boundary = boundary_modes(boundary_velocity);
   modes.resize(n_ring_);
   parallel_for("AxisymmetricDirichlet::shell_modes", n_ring_,
-               [&](long m) { modes[m].noalias() = shell_operators_[m] * boundary[m]; });
+               [&](long m) { multiply(shell_operators_[m], boundary[m], modes[m]); });
 }
 
 Eigen::Matrix<double, 6, 1> AxisymmetricDirichlet::load(ConstPoints boundary_velocity) const {

@@ -15,7 +15,8 @@ enum class Side { interior, exterior };
 
 class AxisymmetricDirichlet {
  public:
-  AxisymmetricDirichlet(Surface const& surface, Side side, int n_shell, double digits);
+  // Modes are left out on shells where they are below `accuracy` of their boundary values.
+  AxisymmetricDirichlet(Surface const& surface, Side side, int n_shell, double accuracy);
 
   // Coefficients of all modes on all shells; overwrites.
   void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const;
@@ -32,12 +33,13 @@ class AxisymmetricDirichlet {
   LoadRows load_of_density(int m) const;  // modes 0 (axial) and 1 (transverse)
   Eigen::MatrixXd boundary_operator(int m, std::vector<ModalRowSet> const& rings) const;
   void assemble_shells(ModalRows const& rows);
+  void drop_negligible_shells(double accuracy);
 
   Surface surface_;
   Side side_;
   int n_shell_, n_ring_;
   AzimuthTransform transform_;
-  std::vector<Eigen::MatrixXd> shell_operators_;  // [mode] (3 n_shell n_ring) x (3 n_ring)
+  std::vector<Eigen::MatrixXd> shell_operators_;  // [mode] (kept shells * 3 n_ring) x (3 n_ring)
   std::vector<LoadRows> load_operators_;          // [mode 0, 1]
 };
 

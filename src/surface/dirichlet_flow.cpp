@@ -22,15 +22,13 @@ int shell_count(Shape const& shape, Side side, int order, double accuracy) {
   return static_cast<int>(std::min(80.0, std::max(smooth, digits / rate + 3.0)));
 }
 
-double quadrature_digits(double accuracy) { return std::clamp(1.5 - std::log10(accuracy), 4.0, 13.0); }
-
 }  // namespace
 
 DirichletFlow::DirichletFlow(Surface surface, Side side, double accuracy)
     : surface_(std::move(surface)), side_(side),
       n_shell_(shell_count(surface_.shape(), side, surface_.order(), accuracy)),
       table_(surface_.grid(), n_shell_, InterpolationWindow::width_for(accuracy)),
-      operator_(surface_, side, n_shell_, quadrature_digits(accuracy)) {}
+      operator_(surface_, side, n_shell_, accuracy) {}
 
 DirichletFlow::Targets DirichletFlow::plan(ConstPoints targets) const {
   Targets result;

@@ -25,7 +25,7 @@ InterpolationWindow::InterpolationWindow(int width) : width_(width), beta_(2.30 
 
 int InterpolationWindow::width_for(double accuracy) {
   for (int const width : widths)
-    if (std::pow(10.0, 1.5 - width) <= accuracy) return width;
+    if (std::pow(10.0, 1.1 - width) <= accuracy) return width;
   return widths[std::size(widths) - 1];
 }
 

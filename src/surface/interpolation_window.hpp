@@ -2,7 +2,7 @@
 // Interpolation of band-limited periodic functions from a twice oversampled equispaced grid by a compact window,
 //   f(x) = sum_j w(x - j) g_j,   w(x) = exp(beta (sqrt(1 - (2 x / W)^2) - 1)),  |x| <= W / 2,
 // where the grid values g are those of f with its Fourier coefficients divided by the window's transform.
-// Relative error about 10^(1 - W).  [Barnett, Magland & af Klinteberg 2019, SIAM J. Sci. Comput. 41]
+// Relative error below 10^(1.1 - W).  [Barnett, Magland & af Klinteberg 2019, SIAM J. Sci. Comput. 41]
 
 #include <Eigen/Core>
 

@@ -63,39 +63,51 @@ TablePoint ShellTable::locate(double psi, double theta, double phi) const {
 }
 
 std::size_t ShellTable::memory() const {
-  return sizeof(double) * 3 * row_ * psi_up_.rows() * theta_up_[0].rows();
+  auto const cells = static_cast<std::size_t>(psi_up_.rows() * theta_up_[0].rows());
+  return sizeof(double) * cells * (3 * row_ + 6 * n_ring_);
 }
 
 // Upsampling is a tensor product: theta and psi by small matrices mode by mode, phi by a Fourier transform.
 void ShellTable::fill(std::vector<ShellMode> const& modes, Values& values) const {
+  ASTERFLOW_REQUIRE(static_cast<int>(modes.size()) == n_ring_);
+  values.velocity.resize(static_cast<std::size_t>(psi_up_.rows() * theta_up_[0].rows()) * 3 * row_);
+  values.meridian.resize(modes.size());
+  parallel_for("ShellTable::fill_meridian", n_ring_,
+               [&](long m) { fill_meridian(static_cast<int>(m), modes[m], values.meridian[m]); });
+  parallel_for("ShellTable::fill_azimuth", psi_up_.rows(), [&](long i) { fill_azimuth(i, values); });
+}
+
+void ShellTable::fill_meridian(int m, ShellMode const& mode, MatrixXd& fine) const {
+  auto const n_psi = psi_up_.rows(), n_theta = theta_up_[0].rows(), n_kept = mode.rows() / (3 * n_ring_);
+  fine.resize(n_theta, 6 * n_psi);
+  MatrixXd rings(n_theta, n_kept);
+  for (int part = 0; part < 2; ++part)
+    for (int c = 0; c < 3; ++c) {
+      Eigen::Map<MatrixXd const, 0, Eigen::OuterStride<>> const coarse(mode.col(part).data() + c * n_ring_, n_ring_, n_kept,
+                                                                       Eigen::OuterStride<>(3 * n_ring_));
+      bool const odd = ((c > 0) + m) % 2 != 0;
+      rings.noalias() = theta_up_[odd] * coarse;
+      rings *= phi_correction_[m];
+      fine.middleCols((part * 3 + c) * n_psi, n_psi).noalias() = rings * psi_up_.leftCols(n_kept).transpose();
+    }
+}
+
+void ShellTable::fill_azimuth(long i_psi, Values& values) const {
   auto const n_psi = psi_up_.rows(), n_theta = theta_up_[0].rows();
-  values.resize(memory() / sizeof(double));
-  std::vector<MatrixXd> fine(modes.size());  // [n_theta, (part, component, psi)]
-  parallel_for("ShellTable::fill::meridian", static_cast<long>(modes.size()), [&](long m) {
-    fine[m].resize(n_theta, 6 * n_psi);
-    for (int part = 0; part < 2; ++part)
-      for (int c = 0; c < 3; ++c) {
-        Eigen::Map<MatrixXd const> const coarse(modes[m].col(part).data() + c * n_shell_ * n_ring_, n_ring_, n_shell_);
-        bool const odd = ((c > 0) + m) % 2 != 0;
-        MatrixXd const rings = (phi_correction_[m] * theta_up_[odd]) * coarse;
-        fine[m].middleCols((part * 3 + c) * n_psi, n_psi).noalias() = rings * psi_up_.transpose();
+  std::vector<std::complex<double>> spectrum(n_phi_ / 2 + 1);
+  for (Eigen::Index j = 0; j < n_theta; ++j)
+    for (int c = 0; c < 3; ++c) {
+      auto const real_column = c * n_psi + i_psi, imaginary_column = (3 + c) * n_psi + i_psi;
+      for (int m = 0; m < n_ring_; ++m) {
+        double const re = values.meridian[m](j, real_column), im = values.meridian[m](j, imaginary_column);
+        spectrum[m] = c < 2 ? std::complex(re, im) : std::complex(-im, re);
       }
-  });
-  parallel_for("ShellTable::fill::azimuth", n_psi, [&](long i) {
-    std::vector<std::complex<double>> spectrum(n_phi_ / 2 + 1);
-    for (Eigen::Index j = 0; j < n_theta; ++j)
-      for (int c = 0; c < 3; ++c) {
-        std::ranges::fill(spectrum, 0.0);
-        for (std::size_t m = 0; m < modes.size(); ++m) {
-          double const re = fine[m](j, c * n_psi + i), im = fine[m](j, (3 + c) * n_psi + i);
-          spectrum[m] = c < 2 ? std::complex(re, im) : std::complex(-im, re);
-        }
-        double* const row = values.data() + ((i * n_theta + j) * 3 + c) * row_;
-        transform_.synthesise(spectrum.data(), row + margin_);
-        for (int g = 0; g < margin_; ++g) row[g] = row[g + n_phi_];
-        for (int g = margin_ + n_phi_; g < row_; ++g) row[g] = row[g - n_phi_];
-      }
-  });
+      std::fill(spectrum.begin() + n_ring_, spectrum.end(), 0.0);
+      double* const row = values.velocity.data() + ((i_psi * n_theta + j) * 3 + c) * row_;
+      transform_.synthesise(spectrum.data(), row + margin_);
+      for (int g = 0; g < margin_; ++g) row[g] = row[g + n_phi_];
+      for (int g = margin_ + n_phi_; g < row_; ++g) row[g] = row[g - n_phi_];
+    }
 }
 
 template <int width>
@@ -117,7 +129,7 @@ void ShellTable::interpolate_with(Values const& values, TablePoint const& point,
   for (int a = 0; a < width; ++a)
     for (int b = 0; b < width; ++b) {
       double const w = weights[0][a] * weights[1][b];
-      double const* const row = values.data() + ((first[0] + a) * n_theta + first[1] + b) * 3 * row_ + first[2];
+      double const* const row = values.velocity.data() + ((first[0] + a) * n_theta + first[1] + b) * 3 * row_ + first[2];
       for (int c = 0; c < 3; ++c)
         for (int i = 0; i < width; ++i) sums[c][i] += w * row[c * row_ + i];
     }

@@ -15,7 +15,8 @@
 namespace asterflow {
 
 // Fourier coefficients of one azimuthal mode m (azimuth_transform.hpp) on all shells and rings: real and imaginary part.
-// Rows: (component * n_shell + i_shell) * n_ring + i_ring. The azimuthal component is divided by i.
+// Rows: (i_shell * 3 + component) * n_ring + i_ring. The azimuthal component is divided by i. Shells that are left out
+// at the end hold nothing of this mode.
 using ShellMode = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
 // Position of a target in units of table cells, and its frame.
@@ -34,20 +35,25 @@ class ShellTable {
   int n_shell() const { return n_shell_; }
   TablePoint locate(double psi, double theta, double phi) const;
 
-  using Values = std::vector<double>;
+  struct Values {
+    std::vector<double> velocity;           // [psi, theta, component, phi]
+    std::vector<Eigen::MatrixXd> meridian;  // work space: [mode] [theta, (part, component, psi)]
+  };
   void fill(std::vector<ShellMode> const& modes, Values& values) const;  // overwrites
   // Components along (e_1, e_2, e_3).
   void interpolate(Values const& values, TablePoint const& point, double velocity[3]) const;
-  std::size_t memory() const;  // bytes of one table of values
+  std::size_t memory() const;  // bytes of one set of values
 
  private:
+  void fill_meridian(int m, ShellMode const& mode, Eigen::MatrixXd& fine) const;
+  void fill_azimuth(long i_psi, Values& values) const;
   template <int width>
   void interpolate_with(Values const& values, TablePoint const& point, double velocity[3]) const;
 
   int n_ring_, n_shell_;
   InterpolationWindow window_;
   int n_psi_, n_theta_, n_phi_;         // cells along [0, pi], [0, pi], [0, 2 pi)
-  int margin_, row_;                    // ghost nodes on each side; doubles between rows
+  int margin_, row_;                    // ghost nodes on each side; doubles between rows of phi
   Eigen::MatrixXd psi_up_;              // [n_psi + 1 + 2 margin, n_shell]
   Eigen::MatrixXd theta_up_[2];         // [n_theta + 1 + 2 margin, n_ring], even and odd in theta
   std::vector<double> phi_correction_;  // [n_mode]
