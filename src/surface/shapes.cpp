@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "surface/ellipsoid.hpp"
+#include "surface/revolution.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -24,9 +25,9 @@ std::shared_ptr<Shape const> make_shape(ShapeSpec const& spec) {
     case ShapeSpec::Kind::ellipsoid:
       for (int i = 0; i < 3; ++i) require_positive("semi_axes", spec.semi_axes[i]);
       return std::make_shared<Ellipsoid>(spec.semi_axes);
-    case ShapeSpec::Kind::revolution: break;
+    case ShapeSpec::Kind::revolution: return std::make_shared<Revolution>(spec.profile);
   }
-  throw SceneError("shape: \"revolution\" is not available yet (available: sphere, ellipsoid)");
+  throw InternalError("shape of unknown kind");
 }
 
 }  // namespace asterflow

@@ -108,6 +108,29 @@ TEST(DirichletFlow, load_is_the_force_and_torque_of_the_sources_inside) {
   }
 }
 
+TEST(DirichletFlow, surface_of_revolution_meets_the_flow_of_a_point_force) {
+  ShapeSpec spec;  // an egg, R = 10 + 3 cos(theta) + cos(2 theta), centred at x = 7
+  spec.kind = ShapeSpec::Kind::revolution;
+  for (int i = 0; i < 30; ++i) {
+    double const theta = pi * (29 - i) / 29, radius = 10.0 + 3.0 * std::cos(theta) + std::cos(2.0 * theta);
+    spec.profile.push_back({4.0 + radius * std::cos(theta), i == 0 || i == 29 ? 0.0 : radius * std::sin(theta)});
+  }
+  for (Side const side : {Side::interior, Side::exterior}) {
+    DirichletFlow const flow(Surface(make_shape(spec), 24), side, 1e-8);
+    PointForce const source{side == Side::interior ? Vec3d{7, 30, 5} : Vec3d{8, 1, -1}, {0.4, -0.7, 0.9}};
+    PointArray targets;
+    for (int i = 0; i < 200; ++i) {
+      double const depth = std::pow(10.0, -12.0 * uniform_random(5, i, 0, 0)), scale = side == Side::interior ? 1.0 - depth : 1.0 / (1.0 - depth);
+      SurfacePatch const patch = flow.surface().shape().patch(pi * uniform_random(5, i, 0, 1), 2.0 * pi * uniform_random(5, i, 0, 2));
+      targets.push_back(flow.surface().shape().centre() + scale * (patch.position - flow.surface().shape().centre()));
+    }
+    PointArray u(targets.size());
+    flow.add_velocity(source.velocity(flow.surface().nodes()), flow.plan(targets), u);
+    for (std::size_t i = 0; i < u.size(); ++i)
+      EXPECT_LT(norm(u[i] - source.velocity(targets[i])), 1e-6 * norm(source.velocity(targets[i])));
+  }
+}
+
 TEST(DirichletFlow, refuses_targets_on_the_wrong_side) {
   DirichletFlow const flow(Surface(make_shape({}), 6), Side::interior, 1e-3);
   PointArray const targets{{0, 0, 0.5}, {0, 0, 1.1}};

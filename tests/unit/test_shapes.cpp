@@ -28,12 +28,35 @@ ShapeSpec sphere(double radius) {
 
 
 
+// An egg: R = 10 + 3 cos(theta) + cos(2 theta) about its centre, n points.
+ShapeSpec egg(int n) {
+  ShapeSpec spec;
+  spec.kind = ShapeSpec::Kind::revolution;
+  for (int i = 0; i < n; ++i) {
+    double const theta = std::numbers::pi * (n - 1 - i) / (n - 1), radius = 10.0 + 3.0 * std::cos(theta) + std::cos(2.0 * theta);
+    spec.profile.push_back({radius * std::cos(theta), std::abs(radius * std::sin(theta))});
+  }
+  spec.profile.front()[1] = spec.profile.back()[1] = 0.0;
+  return spec;
+}
+
+// The meridian of the ellipsoid a x b x b as a profile.
+ShapeSpec elliptic_profile(double a, double b, int n) {
+  ShapeSpec spec;
+  spec.kind = ShapeSpec::Kind::revolution;
+  for (int i = 0; i < n; ++i) {
+    double const t = std::numbers::pi * (n - 1 - i) / (n - 1);
+    spec.profile.push_back({a * std::cos(t), i == 0 || i == n - 1 ? 0.0 : b * std::sin(t)});
+  }
+  return spec;
+}
+
 Vec3d random_vector(int i) {
   return {uniform_random(1, i, 0, 0) - 0.5, uniform_random(1, i, 0, 1) - 0.5, uniform_random(1, i, 0, 2) - 0.5};
 }
 
 std::vector<ShapeSpec> all_shapes() {
-  return {sphere(5.0), ellipsoid(25, 15, 15), ellipsoid(1, 2, 2), ellipsoid(3, 3, 1), ellipsoid(1, 2, 3)};
+  return {sphere(5.0), ellipsoid(25, 15, 15), ellipsoid(1, 2, 2), ellipsoid(3, 3, 1), ellipsoid(1, 2, 3), egg(30)};
 }
 
 }  // namespace
@@ -88,6 +111,22 @@ TEST(Shapes, area_and_volume_of_a_spheroid_are_exact) {
   double const area = 2.0 * std::numbers::pi * 225.0 * (1.0 + 25.0 / (15.0 * e) * std::asin(e));
   EXPECT_NEAR(surface.area(), area, 1e-12 * area);
   EXPECT_NEAR(surface.volume(), 4.0 / 3.0 * std::numbers::pi * 25.0 * 225.0, 1e-9);
+}
+
+TEST(Shapes, profile_of_a_spheroid_gives_the_spheroid) {
+  auto const turned = make_shape(elliptic_profile(25, 15, 61)), exact = make_shape(ellipsoid(25, 15, 15));
+  for (int i = 0; i < 100; ++i) {
+    Vec3d const x = 40.0 * random_vector(i);
+    EXPECT_NEAR(turned->signed_distance(x), exact->signed_distance(x), 1e-6);
+  }
+}
+
+TEST(Shapes, profile_needs_to_be_star_shaped_about_the_midpoint_of_its_poles) {
+  ShapeSpec spec = elliptic_profile(2, 1, 20);
+  spec.profile[10][1] = 0.001;
+  EXPECT_THROW(make_shape(spec), SceneError);
+  spec.profile = {{-1.0, 0.0}, {0.0, 1.0}};
+  EXPECT_THROW(make_shape(spec), SceneError);
 }
 
 TEST(Shapes, impossible_shapes_are_refused) {

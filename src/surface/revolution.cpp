@@ -1,0 +1,150 @@
+#include "surface/revolution.hpp"
+
+#include "base/error.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace asterflow {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct PolarProfile {
+  double centre;
+  std::vector<double> theta, radius;
+};
+
+PolarProfile polar_profile(std::vector<std::array<double, 2>> const& profile) {
+  if (profile.size() < 3) throw SceneError("shape: profile must have at least 3 points (x, r), um");
+  PolarProfile polar{0.5 * (profile.front()[0] + profile.back()[0]), {}, {}};
+  for (auto const& [x, r] : profile) {
+    double const theta = std::atan2(r, x - polar.centre), radius = std::hypot(r, x - polar.centre);
+    if (!(radius > 0.0) || !std::isfinite(radius) || r < 0.0)
+      throw SceneError(fmt::format("shape: profile point ({}, {}) um is not a point around the centre x = {} um", x, r, polar.centre));
+    if (!polar.theta.empty() && theta >= polar.theta.back())
+      throw SceneError(fmt::format("shape: profile is not star-shaped about x = {} um at the point ({}, {}) um: every ray from "
+                                   "there must meet it once",
+                                   polar.centre, x, r));
+    polar.theta.push_back(theta);
+    polar.radius.push_back(radius);
+  }
+  return polar;
+}
+
+std::vector<double> fit_cosines(PolarProfile const& profile) {
+  auto const n_point = static_cast<int>(profile.theta.size());
+  Eigen::Map<Eigen::VectorXd const> const radius(profile.radius.data(), n_point);
+  int const highest = std::min(64, n_point <= 8 ? n_point - 1 : std::max(7, 2 * (n_point - 1) / 3));
+  Eigen::MatrixXd basis(n_point, highest + 1);
+  for (int i = 0; i < n_point; ++i)
+    for (int k = 0; k <= highest; ++k) basis(i, k) = std::cos(k * profile.theta[i]);
+  Eigen::VectorXd c;
+  for (int degree = 1; degree <= highest; ++degree) {
+    c = basis.leftCols(degree + 1).colPivHouseholderQr().solve(radius);
+    double const residual = (basis.leftCols(degree + 1) * c - radius).lpNorm<Eigen::Infinity>();
+    if (residual <= 1e-9 * radius.maxCoeff()) break;
+    if (degree == highest && residual > 1e-2 * radius.maxCoeff())
+      throw SceneError(fmt::format("shape: profile is not smooth enough for its {} points: the fit misses one by {} um", n_point, residual));
+  }
+  return {c.data(), c.data() + c.size()};
+}
+
+}  // namespace
+
+Revolution::Revolution(std::vector<std::array<double, 2>> const& profile) : Shape(0) {
+  PolarProfile const polar = polar_profile(profile);
+  centre_ = polar.centre;
+  coefficients_ = fit_cosines(polar);
+  largest_ = 0.0;
+  smallest_ = std::numeric_limits<double>::max();
+  int const n_sample = 8 * static_cast<int>(coefficients_.size()) + 32;
+  for (int i = 0; i <= n_sample; ++i) {
+    double const theta = pi * i / n_sample, r = radius(theta)[0];
+    largest_ = std::max(largest_, r);
+    smallest_ = std::min(smallest_, r);
+    samples_.push_back({r * std::cos(theta), r * std::sin(theta)});
+  }
+  if (smallest_ < 0.02 * largest_) throw SceneError("shape: profile comes too close to the midpoint of its poles");
+}
+
+std::array<double, 3> Revolution::radius(double theta) const {
+  double const c1 = std::cos(theta), s1 = std::sin(theta);
+  double c = 1.0, s = 0.0, value = 0.0, slope = 0.0, curvature = 0.0;
+  for (std::size_t k = 0; k < coefficients_.size(); ++k) {
+    auto const wavenumber = static_cast<double>(k);
+    value += coefficients_[k] * c;
+    slope -= coefficients_[k] * wavenumber * s;
+    curvature -= coefficients_[k] * wavenumber * wavenumber * c;
+    double const next = c * c1 - s * s1;
+    s = s * c1 + c * s1;
+    c = next;
+  }
+  return {value, slope, curvature};
+}
+
+Revolution::MeridianPoint Revolution::meridian(double theta) const {
+  auto const [R, dR, ddR] = radius(theta);
+  double const c = std::cos(theta), s = std::sin(theta);
+  return {R * c, R * s, dR * c - R * s, dR * s + R * c, (ddR - R) * c - 2.0 * dR * s, (ddR - R) * s + 2.0 * dR * c};
+}
+
+SurfacePatch Revolution::patch(double theta, double phi) const {
+  MeridianPoint const p = meridian(theta);
+  double const cp = std::cos(phi), sp = std::sin(phi);
+  return {{centre_ + p.z, p.r * cp, p.r * sp}, {p.r * p.dr, -p.r * p.dz * cp, -p.r * p.dz * sp}};
+}
+
+// Zero of (X - x) . X' next to the nearest sample: Newton, kept inside the bracket by bisection.
+double Revolution::closest_angle(double z, double r) const {
+  auto const n = static_cast<int>(samples_.size()) - 1;
+  int best = 0;
+  double least = std::numeric_limits<double>::max();
+  for (int i = 0; i <= n; ++i) {
+    double const square = std::pow(z - samples_[i][0], 2) + std::pow(r - samples_[i][1], 2);
+    if (square < least) least = square, best = i;
+  }
+  double low = pi * std::max(best - 1, 0) / n, high = pi * std::min(best + 1, n) / n, theta = pi * best / n;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    MeridianPoint const p = meridian(theta);
+    double const slope = (p.z - z) * p.dz + (p.r - r) * p.dr;
+    double const curvature = p.dz * p.dz + p.dr * p.dr + (p.z - z) * p.ddz + (p.r - r) * p.ddr;
+    (slope > 0.0 ? high : low) = theta;
+    double next = theta - slope / curvature;
+    if (!(curvature > 0.0) || next < low || next > high) next = 0.5 * (low + high);
+    if (std::abs(next - theta) < 1e-15) return next;
+    theta = next;
+  }
+  return theta;
+}
+
+ClosestPoint Revolution::closest_point(Vec3d x) const {
+  double const z = x.x - centre_, r = std::hypot(x.y, x.z);
+  double const theta = closest_angle(z, r), phi = std::atan2(x.z, x.y);
+  MeridianPoint const p = meridian(theta);
+  double const stretch = std::hypot(p.dz, p.dr), n_z = p.dr / stretch, n_r = -p.dz / stretch;
+  ClosestPoint result;
+  result.position = {centre_ + p.z, p.r * std::cos(phi), p.r * std::sin(phi)};
+  result.normal = {n_z, n_r * std::cos(phi), n_r * std::sin(phi)};
+  result.distance = n_z * (z - p.z) + n_r * (r - p.r);
+  result.theta = theta;
+  result.phi = phi;
+  return result;
+}
+
+ShellPoint Revolution::shell_point(Vec3d x) const {
+  double const z = x.x - centre_, r = std::hypot(x.y, x.z), theta = std::atan2(r, z);
+  double const rho = std::hypot(z, r) / radius(theta)[0];
+  return {rho, theta, std::atan2(x.z, x.y), 1.0 - rho};
+}
+
+std::string Revolution::key() const {
+  std::string key = fmt::format("revolution {:a}", centre_);
+  for (double const c : coefficients_) key += fmt::format(" {:a}", c);
+  return key;
+}
+
+}  // namespace asterflow
