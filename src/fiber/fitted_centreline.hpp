@@ -1,0 +1,11 @@
+#pragma once
+// The smooth fiber through given points: a natural cubic spline over chord length, sampled for its tangents.
+
+#include "fiber/centreline.hpp"
+
+namespace asterflow {
+
+// `points`: um, from minus to plus end, at least two, all different from their neighbours. The length is the spline's.
+Centreline centreline_through(ConstPoints points, int n_node);
+
+}  // namespace asterflow
