@@ -2,7 +2,9 @@
 //   0 done   1 bad input   2 numerical failure, state saved   3 internal error
 
 #include "base/error.hpp"
+#include "command/export.hpp"
 #include "command/sum.hpp"
+#include "io/versions.hpp"
 
 #include <Kokkos_Core.hpp>
 
@@ -11,8 +13,6 @@
 #include <new>
 
 namespace {
-
-constexpr char const* version = ASTERFLOW_VERSION;
 
 int report(std::string const& message, int code) {
   std::fprintf(stderr, "%s\n", message.c_str());
@@ -30,12 +30,13 @@ int report_usage(CLI::App const& program, CLI::ParseError const& error) {
 int run(int argc, char** argv) {
   CLI::App program("asterflow: flexible fibers, rigid bodies and a confining surface in Stokes flow", "asterflow");
   asterflow::Action chosen;
-  program.set_version_flag("--version", version);
+  program.set_version_flag("--version", asterflow::all_versions());
   program.require_subcommand(0, 1);
   program.footer(
       "\nasterflow COMMAND --help explains a command.\n"
       "Exit codes: 0 done, 1 bad input, 2 numerical failure (state saved), 3 internal error.\n"
       "Threads: set OMP_NUM_THREADS.\n");
+  asterflow::add_export_command(program, chosen);
   asterflow::add_sum_command(program, chosen);
   try {
     program.parse(argc, argv);

@@ -1,0 +1,45 @@
+#include "io/frame.hpp"
+
+#include "base/error.hpp"
+
+namespace asterflow {
+
+NamedArray const* find_array(Frame const& frame, std::string const& name) {
+  for (auto const& array : frame.arrays)
+    if (array.name == name) return &array;
+  return nullptr;
+}
+
+std::vector<double> numbers_of(Frame const& frame, std::string const& name) {
+  auto const* array = find_array(frame, name);
+  if (!array) return {};
+  auto const* values = std::get_if<std::vector<double>>(&array->values);
+  if (!values) throw SceneError("trajectory: " + name + ": must hold floating-point numbers");
+  return *values;
+}
+
+std::vector<std::int64_t> integers_of(Frame const& frame, std::string const& name) {
+  auto const* array = find_array(frame, name);
+  if (!array) return {};
+  auto const* values = std::get_if<std::vector<std::int64_t>>(&array->values);
+  if (!values) throw SceneError("trajectory: " + name + ": must hold whole numbers");
+  return *values;
+}
+
+PointArray points_of(Frame const& frame, std::string const& name) {
+  auto const values = numbers_of(frame, name);
+  if (values.size() % 3 != 0) throw SceneError("trajectory: " + name + ": must have shape [n, 3]");
+  PointArray points(values.size() / 3);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  return points;
+}
+
+std::vector<Eigen::Quaterniond> orientations_of(Frame const& frame) {
+  auto const values = numbers_of(frame, "body/orientation");
+  std::vector<Eigen::Quaterniond> orientations;
+  for (std::size_t i = 0; i + 3 < values.size(); i += 4)
+    orientations.emplace_back(values[i], values[i + 1], values[i + 2], values[i + 3]);
+  return orientations;
+}
+
+}  // namespace asterflow

@@ -1,0 +1,19 @@
+#pragma once
+// Access to the arrays of a stored state by name; names and shapes are those of docs/trajectory.md.
+
+#include "io/trajectory.hpp"
+
+#include <Eigen/Geometry>
+
+namespace asterflow {
+
+// Null when the state does not have it.
+NamedArray const* find_array(Frame const& frame, std::string const& name);
+
+// Empty when the state does not have it.
+PointArray points_of(Frame const& frame, std::string const& name);                // [n, 3]
+std::vector<double> numbers_of(Frame const& frame, std::string const& name);      // [n]
+std::vector<std::int64_t> integers_of(Frame const& frame, std::string const& name);  // [n]
+std::vector<Eigen::Quaterniond> orientations_of(Frame const& frame);              // of the bodies
+
+}  // namespace asterflow
