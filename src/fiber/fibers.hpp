@@ -7,6 +7,7 @@
 // Second order in time (BDF2); a fiber without history makes its first step by backward Euler. See fiber_response.hpp
 // for the equations. Flat arrays over nodes are ordered by fiber, nodes from minus to plus end.
 
+#include "base/named_array.hpp"
 #include "fiber/centreline.hpp"
 #include "fiber/fiber_ends.hpp"
 #include "fiber/fiber_response.hpp"
@@ -77,6 +78,10 @@ class Fibers {
   MinusEndSite const& site(std::size_t fiber) const { return fibers_[fiber].site; }
   FiberProperties const& properties(std::size_t fiber) const { return fibers_[fiber].properties; }
   double elastic_energy() const;  // pN um
+
+  // Everything that an exact restart needs, and back into fibers added in the same order.
+  std::vector<NamedArray> state() const;
+  void restore(std::span<NamedArray const> state);
 
  private:
   struct Fiber {

@@ -1,0 +1,96 @@
+// What is stored of fibers, and how it comes back.
+//   fiber/length [n_fiber] um, fiber/minus_end [n_fiber, 3] um, fiber/tangent [n_tangent_total, 3]: the shapes
+//   fiber/history/...: the same of the two accepted states before, how many of them count, and their time steps
+//   fiber/site/...: what holds the minus ends
+
+#include "base/error.hpp"
+#include "fiber/fibers.hpp"
+
+namespace asterflow {
+
+namespace {
+
+constexpr char const* prefixes[3] = {"fiber/", "fiber/history/before_", "fiber/history/before_that_"};
+
+template <class Value>
+std::vector<Value> const& values_of(std::span<NamedArray const> state, std::string const& name, std::size_t size) {
+  for (NamedArray const& array : state)
+    if (array.name == name)
+      if (auto const* values = std::get_if<std::vector<Value>>(&array.values); values && values->size() == size)
+        return *values;
+  throw SceneError("the stored state has no array " + name + " of the scene's size");
+}
+
+Vec3d point(std::vector<double> const& values, std::size_t i) {
+  return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+}
+
+}  // namespace
+
+std::vector<NamedArray> Fibers::state() const {
+  std::vector<NamedArray> arrays;
+  for (int past = 0; past < 3; ++past) {
+    std::vector<double> lengths;
+    PointArray minus_ends, tangents;
+    for (Fiber const& fiber : fibers_) {
+      Centreline const& shape = fiber.past[past];
+      lengths.push_back(shape.length);
+      minus_ends.push_back(shape.minus_end);
+      tangents.insert(tangents.end(), shape.tangents.begin(), shape.tangents.end());
+    }
+    std::string const prefix = prefixes[past];
+    arrays.push_back(NamedArray::of(prefix + "length", std::move(lengths), "um"));
+    arrays.push_back(NamedArray::of(prefix + "minus_end", minus_ends, "um"));
+    arrays.push_back(NamedArray::of(prefix + "tangent", tangents, ""));
+  }
+  std::vector<std::int64_t> counts, kinds, bodies;
+  PointArray positions, directions;
+  for (Fiber const& fiber : fibers_) {
+    counts.push_back(fiber.n_past);
+    kinds.push_back(static_cast<std::int64_t>(fiber.site.kind));
+    bodies.push_back(fiber.site.body);
+    positions.push_back(fiber.site.position);
+    directions.push_back(fiber.site.direction);
+  }
+  arrays.push_back(NamedArray::of("fiber/history/count", std::move(counts)));
+  arrays.push_back(NamedArray::of("fiber/history/time_step", std::vector<double>{dt_1_, dt_2_}, "s"));
+  arrays.push_back(NamedArray::of("fiber/site/kind", std::move(kinds)));
+  arrays.push_back(NamedArray::of("fiber/site/body", std::move(bodies)));
+  arrays.push_back(NamedArray::of("fiber/site/position", positions, "um"));
+  arrays.push_back(NamedArray::of("fiber/site/direction", directions, ""));
+  return arrays;
+}
+
+void Fibers::restore(std::span<NamedArray const> state) {
+  std::size_t const n = count();
+  std::size_t n_tangent = 0;
+  for (Fiber const& fiber : fibers_) n_tangent += fiber.past[0].tangents.size();
+  for (int past = 0; past < 3; ++past) {
+    std::string const prefix = prefixes[past];
+    auto const& lengths = values_of<double>(state, prefix + "length", n);
+    auto const& minus_ends = values_of<double>(state, prefix + "minus_end", 3 * n);
+    auto const& tangents = values_of<double>(state, prefix + "tangent", 3 * n_tangent);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      Centreline& shape = fibers_[i].past[past];
+      shape.length = lengths[i];
+      shape.minus_end = point(minus_ends, i);
+      for (Vec3d& t : shape.tangents) t = point(tangents, next++);
+    }
+  }
+  auto const& counts = values_of<std::int64_t>(state, "fiber/history/count", n);
+  auto const& time_steps = values_of<double>(state, "fiber/history/time_step", 2);
+  auto const& kinds = values_of<std::int64_t>(state, "fiber/site/kind", n);
+  auto const& bodies = values_of<std::int64_t>(state, "fiber/site/body", n);
+  auto const& positions = values_of<double>(state, "fiber/site/position", 3 * n);
+  auto const& directions = values_of<double>(state, "fiber/site/direction", 3 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    fibers_[i].n_past = static_cast<int>(counts[i]);
+    fibers_[i].site = {static_cast<MinusEnd>(kinds[i]), static_cast<int>(bodies[i]), point(positions, i),
+                       point(directions, i)};
+  }
+  dt_1_ = time_steps[0];
+  dt_2_ = time_steps[1];
+}
+
+}  // namespace asterflow
