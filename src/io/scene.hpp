@@ -6,6 +6,8 @@
 
 #include "background/background_spec.hpp"
 #include "body/body_spec.hpp"
+#include "fiber/dynamic_instability_spec.hpp"
+#include "fiber/fiber_spec.hpp"
 #include "io/drag_spec.hpp"
 #include "io/fluid_spec.hpp"
 #include "io/output_spec.hpp"
@@ -26,11 +28,17 @@ struct Scene {
   std::optional<PeripherySpec> periphery;
   std::optional<BackgroundSpec> background;
   std::vector<BodySpec> bodies;
+  std::vector<FiberSpec> fibers;
+  std::vector<AsterSpec> asters;
+  std::optional<DynamicInstabilitySpec> dynamic_instability;  // of fibers and asters with growing = true
 
   std::string file;                    // as the user wrote it
   std::string text;                    // all of it, kept with the trajectory
   std::vector<std::string> overrides;  // "table.key=value", applied to it
 };
+
+// Index of the body of that name; -1 for an empty name. Throws std::out_of_range when there is none.
+int body_index(Scene const& scene, std::string const& name);
 
 // Reads and validates, including what involves several objects. Throws SceneError.
 Scene read_scene(std::string const& file, std::vector<std::string> const& overrides = {});

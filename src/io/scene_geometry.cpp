@@ -1,5 +1,6 @@
 #include "io/scene_geometry.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 
@@ -43,10 +44,12 @@ Vec3d PlacedShape::to_body(Vec3d x) const {
   return {turned.x(), turned.y(), turned.z()};
 }
 
-Vec3d PlacedShape::to_laboratory(Vec3d x) const {
-  Eigen::Vector3d const turned = rotation_ * Eigen::Vector3d(x.x, x.y, x.z);
-  return position_ + Vec3d{turned.x(), turned.y(), turned.z()};
+Vec3d PlacedShape::turn_to_laboratory(Vec3d direction) const {
+  Eigen::Vector3d const turned = rotation_ * Eigen::Vector3d(direction.x, direction.y, direction.z);
+  return {turned.x(), turned.y(), turned.z()};
 }
+
+Vec3d PlacedShape::to_laboratory(Vec3d x) const { return position_ + turn_to_laboratory(x); }
 
 double PlacedShape::signed_distance(Vec3d x) const { return shape_->signed_distance(to_body(x)); }
 
@@ -61,6 +64,29 @@ double gap_between(PlacedShape const& a, PlacedShape const& b) {
 
 double gap_inside(PlacedShape const& inner, PlacedShape const& outer) {
   return least_distance(inner, [&](Vec3d x) { return -outer.signed_distance(x); });
+}
+
+PlacedScene::PlacedScene(std::vector<BodySpec> const& all_bodies, ShapeSpec const* periphery_shape) {
+  for (auto const& body : all_bodies) bodies.emplace_back(body);
+  if (periphery_shape) periphery.emplace(*periphery_shape);
+}
+
+double PlacedScene::clearance(Vec3d x) const {
+  double distance = periphery ? -periphery->signed_distance(x) : std::numeric_limits<double>::infinity();
+  for (auto const& body : bodies) distance = std::min(distance, body.signed_distance(x));
+  return distance;
+}
+
+// Marches by the distance to the nearest surface, which cannot miss one, but at least by `least_step`.
+double PlacedScene::reach(Vec3d x, Vec3d direction, double limit) const {
+  constexpr double least_step = 0.01;  // um
+  double reached = 0.0;
+  while (reached < limit) {
+    double const step = std::min(std::max(clearance(x + reached * direction), least_step), limit - reached);
+    if (clearance(x + (reached + step) * direction) < 0.0) return reached;
+    reached += step;
+  }
+  return limit;
 }
 
 }  // namespace asterflow

@@ -15,10 +15,10 @@ TEST(Plane, Reads_the_words_of_the_command_line) {
 }
 
 TEST(Plane, Refuses_what_is_not_a_plane_or_grid) {
-  int n = 0;
+  int n = 0, m = 0;
   for (char const* text : {"z", "w=0", "z=", "z=a", "z=0 1", "z=nan"}) EXPECT_THROW(parse_plane(text), SceneError) << text;
   for (char const* text : {"240", "240x", "1x10", "-3x5", "10x10x10", "axb"})
-    EXPECT_THROW(parse_grid(text, n, n), SceneError) << text;
+    EXPECT_THROW(parse_grid(text, n, m), SceneError) << text;
 }
 
 TEST(Plane, Points_fill_the_rectangle_row_by_row) {

@@ -1,5 +1,6 @@
 #include "base/error.hpp"
 #include "io/scene.hpp"
+#include "io/scene_geometry.hpp"
 
 #include <gtest/gtest.h>
 #include <numbers>
@@ -160,4 +161,44 @@ TEST(Scene, Refuses_a_body_that_reaches_outside_the_periphery) {
   EXPECT_EQ(refusal(minimal, {"body.pnc.position=[0, 0, 9.999]"}), "accepted");
   EXPECT_NE(refusal(minimal, {"body.pnc.position=[100, 0, 0]"}).find("reaches outside"), std::string::npos);
   EXPECT_NE(refusal(minimal, {"body.pnc.radius=40"}).find("reaches outside"), std::string::npos);
+}
+
+TEST(Scene, Refuses_a_fiber_of_an_unknown_body) {
+  EXPECT_EQ(refusal(minimal + "[[fiber]]\nminus_end = \"clamped\"\nbody = \"pcn\"\n"),
+            "scene.toml: [[fiber]] #1: body = 'pcn': must be the name of a [[body]] (known: pnc) [line 20]");
+}
+
+TEST(Scene, Refuses_a_fiber_outside_the_periphery) {
+  EXPECT_EQ(refusal(minimal + "[[fiber]]\nposition = [-20, 0, 0]\ndirection = [-1, 0, 0]\nlength = 6\n").substr(0, 55),
+            "scene.toml: [[fiber]] #1: reaches outside the periphery");
+  EXPECT_EQ(refusal(minimal + "[[fiber]]\nposition = [-20, 0, 0]\ndirection = [-1, 0, 0]\nlength = 4.99\n"), "accepted");
+}
+
+TEST(Scene, Refuses_a_fiber_through_a_body) {
+  EXPECT_EQ(refusal(minimal + "[[fiber]]\nposition = [0, 0, 0]\nlength = 8\n").substr(0, 54),
+            "scene.toml: [[fiber]] #1: passes through [[body]] #1 \"");
+  EXPECT_EQ(refusal(minimal + "[[fiber]]\nposition = [10, 5, 0]\ndirection = [0, 1, 0]\nbody = \"pnc\"\n"
+                              "minus_end = \"clamped\"\n"),
+            "accepted");
+}
+
+TEST(Scene, Refuses_an_aster_without_room) {
+  std::string const aster = "[[aster]]\nbody = \"pnc\"\nposition = [0, 5, 0]\n";
+  EXPECT_EQ(refusal(minimal + aster), "accepted");
+  EXPECT_NE(refusal(minimal + aster, {"aster.0.opening=180"}).find("has no room"), std::string::npos);
+}
+
+TEST(Scene, Reach_ends_at_the_first_surface) {
+  Scene const scene = read(minimal);
+  PlacedScene const placed(scene.bodies, &scene.periphery->shape);
+  EXPECT_NEAR(placed.reach({0, 0, 0}, {1, 0, 0}, 100), 5.0, 0.01);    // the body's near side
+  EXPECT_NEAR(placed.reach({0, 0, 0}, {-1, 0, 0}, 100), 25.0, 0.01);  // the cortex
+  EXPECT_NEAR(placed.reach({5, 0, 0}, {-1, 0, 0}, 100), 30.0, 0.01);  // from the body's surface
+  EXPECT_EQ(placed.reach({0, 0, 0}, {0, 1, 0}, 3.0), 3.0);
+}
+
+TEST(Scene, Refuses_growth_without_its_rates) {
+  EXPECT_EQ(refusal("[[fiber]]\ngrowing = true\n"),
+            "scene.toml: [[fiber]] #1: growing = true: needs a table [dynamic_instability] [line 2]");
+  EXPECT_EQ(refusal("[[fiber]]\ngrowing = true\n[dynamic_instability]\n"), "accepted");
 }

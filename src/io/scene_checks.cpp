@@ -1,0 +1,98 @@
+#include "io/scene_checks.hpp"
+
+#include "io/scene_geometry.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace asterflow {
+
+namespace {
+
+constexpr double touching = 1e-6;  // um: what is closer to a surface counts as on it
+
+void check_body_reference(Table const& table, Scene const& scene, std::string const& name) {
+  if (name.empty()) return;
+  std::vector<std::string> known;
+  for (auto const& body : scene.bodies) known.push_back(body.name);
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  if (known.empty()) table.fail("body", "the scene has no [[body]]");
+  table.fail("body", fmt::format("must be the name of a [[body]] (known: {})", fmt::join(known, ", ")));
+}
+
+void check_bodies(SceneTables const& tables, Scene const& scene, PlacedScene const& placed) {
+  for (std::size_t i = 0; i < placed.bodies.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      if (gap_between(placed.bodies[j], placed.bodies[i]) <= 0.0)
+        tables.bodies[i].fail(
+            fmt::format("overlaps [[body]] #{} \"{}\"; move one of them", j + 1, scene.bodies[j].name));
+    if (placed.periphery && gap_inside(placed.bodies[i], *placed.periphery) <= 0.0)
+      tables.bodies[i].fail("reaches outside the periphery; move it inwards or make it smaller");
+  }
+}
+
+// Points along the fiber, from minus to plus end.
+PointArray sample(FiberSpec const& fiber) {
+  if (!fiber.points.empty()) return {fiber.points.begin(), fiber.points.end()};
+  constexpr int n = 33;
+  PointArray points;
+  for (int i = 0; i < n; ++i) points.push_back(fiber.position + (fiber.length * i / (n - 1)) * fiber.direction);
+  return points;
+}
+
+void check_fiber(Table const& table, Scene const& scene, FiberSpec const& fiber, PlacedScene const& placed) {
+  for (Vec3d const& x : sample(fiber)) {
+    std::string const place = fmt::format("at [{:g}, {:g}, {:g}] um", x.x, x.y, x.z);
+    if (placed.periphery && placed.periphery->signed_distance(x) > touching)
+      table.fail(fmt::format("reaches outside the periphery {}; move or shorten it", place));
+    for (std::size_t b = 0; b < placed.bodies.size(); ++b)
+      if (placed.bodies[b].signed_distance(x) < -touching)
+        table.fail(fmt::format("passes through [[body]] #{} \"{}\" {}; move or shorten it", b + 1, scene.bodies[b].name,
+                               place));
+  }
+}
+
+void check_aster(Table const& table, Scene const& scene, AsterSpec const& aster, std::size_t number,
+                 PlacedScene const& placed) {
+  int const b = body_index(scene, aster.body);
+  auto const fibers = aster_fibers(aster, aster.count, b, scene.run.seed, number);
+  for (std::size_t i = 0; i < fibers.size(); ++i) {
+    Vec3d const x = b < 0 ? fibers[i].site.position : placed.bodies[b].to_laboratory(fibers[i].site.position);
+    Vec3d const d = b < 0 ? fibers[i].site.direction : placed.bodies[b].turn_to_laboratory(fibers[i].site.direction);
+    if (placed.clearance(x) < -touching || placed.reach(x, d, aster.minimal_length) < aster.minimal_length)
+      table.fail(fmt::format("fiber {} from [{:g}, {:g}, {:g}] um has no room for minimal_length = {:g} um before a body or "
+                             "the periphery; move the aster, or reduce its opening or centrosome_radius",
+                             i + 1, x.x, x.y, x.z, aster.minimal_length));
+  }
+}
+
+}  // namespace
+
+void check_names(SceneTables const& tables, Scene const& scene) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (scene.bodies[i].name == scene.bodies[j].name)
+        tables.bodies[i].fail("name", fmt::format("is the name of [[body]] #{} too", j + 1));
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i)
+    check_body_reference(tables.fibers[i], scene, scene.fibers[i].body);
+  for (std::size_t i = 0; i < scene.asters.size(); ++i)
+    check_body_reference(tables.asters[i], scene, scene.asters[i].body);
+}
+
+void check_growth(SceneTables const& tables, Scene const& scene) {
+  if (scene.dynamic_instability) return;
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i)
+    if (scene.fibers[i].material.growing) tables.fibers[i].fail("growing", "needs a table [dynamic_instability]");
+  for (std::size_t i = 0; i < scene.asters.size(); ++i)
+    if (scene.asters[i].material.growing) tables.asters[i].fail("growing", "needs a table [dynamic_instability]");
+}
+
+void check_places(SceneTables const& tables, Scene const& scene) {
+  PlacedScene const placed(scene.bodies, scene.periphery ? &scene.periphery->shape : nullptr);
+  check_bodies(tables, scene, placed);
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i) check_fiber(tables.fibers[i], scene, scene.fibers[i], placed);
+  for (std::size_t i = 0; i < scene.asters.size(); ++i) check_aster(tables.asters[i], scene, scene.asters[i], i, placed);
+}
+
+}  // namespace asterflow
