@@ -53,7 +53,7 @@ Vec3d PlacedShape::to_laboratory(Vec3d x) const { return position_ + turn_to_lab
 
 double PlacedShape::signed_distance(Vec3d x) const { return shape_->signed_distance(to_body(x)); }
 
-Vec3d PlacedShape::point(double theta, double phi) const { return to_laboratory(shape_->patch(theta, phi).position); }
+Vec3d PlacedShape::point(double theta, double phi) const { return to_laboratory(shape_->point(theta, phi)); }
 
 double gap_between(PlacedShape const& a, PlacedShape const& b) {
   double const apart = norm(a.position() - b.position()) - a.size() - b.size();

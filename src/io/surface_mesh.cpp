@@ -11,7 +11,7 @@ void add_surface(ShapeSpec const& spec, Vec3d position, Eigen::Quaterniond const
   auto const shape = make_shape(spec);
   Eigen::Matrix3d const rotation = orientation.toRotationMatrix();
   auto const add_point = [&](double theta, double phi) {
-    Vec3d const x = shape->patch(theta, phi).position;
+    Vec3d const x = shape->point(theta, phi);
     Eigen::Vector3d const turned = rotation * Eigen::Vector3d(x.x, x.y, x.z);
     mesh.points.push_back(position + Vec3d{turned.x(), turned.y(), turned.z()});
   };

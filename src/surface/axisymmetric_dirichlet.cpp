@@ -56,7 +56,7 @@ void multiply(MatrixXd const& a, Eigen::Matrix<double, Eigen::Dynamic, 2> const&
 AxisymmetricDirichlet::AxisymmetricDirichlet(Surface const& surface, Side side, int n_shell, double accuracy)
     : surface_(surface), side_(side), n_shell_(n_shell), n_ring_(surface.grid().n_ring()),
       transform_(surface.grid().n_azimuth()) {
-  ASTERFLOW_REQUIRE(surface.shape().axisymmetric());
+  ASTERFLOW_REQUIRE(surface.axisymmetric());
   ModalRows const rows(surface_, std::clamp(1.5 - std::log10(accuracy), 4.0, 13.0));
   std::vector<ModalRowSet> rings(n_ring_);
   parallel_for("AxisymmetricDirichlet::rings", n_ring_,
@@ -84,9 +84,9 @@ void AxisymmetricDirichlet::drop_negligible_shells(double accuracy) {
 }
 
 CylindricalPoint AxisymmetricDirichlet::shell_node(int ring, int shell) const {
-  Shape const& shape = surface_.shape();
   double const scale = shell_scale(shell, n_shell_);
-  Vec3d const arm = shape.to_polar(shape.patch(surface_.grid().polar_angles()[ring], 0.0).position - shape.centre());
+  Vec3d const point = surface_.patch(surface_.grid().polar_angles()[ring], 0.0).position;
+  Vec3d const arm = surface_.to_polar(point - surface_.shape().centre());
   double const rho = side_ == Side::interior ? scale : 1.0 / scale;
   return {rho * arm.x, rho * arm.y};
 }
@@ -120,7 +120,7 @@ MatrixXd AxisymmetricDirichlet::boundary_operator(int m, std::vector<ModalRowSet
     Eigen::VectorXd normal = Eigen::VectorXd::Zero(3 * n_ring_), flux = normal;
     for (int j = 0; j < n_ring_; ++j) {
       auto const node = static_cast<std::size_t>(j) * surface_.grid().n_azimuth();
-      Vec3d const n = surface_.shape().to_polar(surface_.normals()[node]);
+      Vec3d const n = surface_.to_polar(surface_.normals()[node]);
       for (int c = 0; c < 2; ++c) {
         normal[c * n_ring_ + j] = n[c];
         flux[c * n_ring_ + j] = n[c] * surface_.weights()[node] * surface_.grid().n_azimuth() / surface_.area();
@@ -142,7 +142,7 @@ MatrixXd AxisymmetricDirichlet::boundary_operator(int m, std::vector<ModalRowSet
 void AxisymmetricDirichlet::assemble_shells(ModalRows const& rows) {
   shell_operators_.assign(n_ring_, MatrixXd::Zero(3 * n_shell_ * n_ring_, 3 * n_ring_));
   LoadRows const loads[2] = {load_of_density(0), load_of_density(1)};
-  double const shift = surface_.shape().to_polar(surface_.shape().centre()).x;
+  double const shift = surface_.to_polar(surface_.shape().centre()).x;
   long const n_inner = static_cast<long>(n_shell_ - 1) * n_ring_;
   parallel_for("AxisymmetricDirichlet::shells", n_inner, [&](long i) {
     int const k = 1 + static_cast<int>(i / n_ring_), j = static_cast<int>(i % n_ring_);
@@ -172,7 +172,7 @@ std::vector<AxisymmetricDirichlet::BoundaryMode> AxisymmetricDirichlet::boundary
   std::vector<std::complex<double>> coefficients(n / 2 + 1);
   for (int j = 0; j < n_ring_; ++j) {
     for (int k = 0; k < n; ++k) {
-      Vec3d const w = surface_.shape().to_polar(velocity[static_cast<std::size_t>(j) * n + k]);
+      Vec3d const w = surface_.to_polar(velocity[static_cast<std::size_t>(j) * n + k]);
       double const c = std::cos(grid.azimuth(k)), s = std::sin(grid.azimuth(k));
       values[k] = w.x;
       values[n + k] = c * w.y + s * w.z;

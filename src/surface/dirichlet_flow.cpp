@@ -28,7 +28,9 @@ DirichletFlow::DirichletFlow(Surface surface, Side side, double accuracy)
     : surface_(std::move(surface)), side_(side),
       n_shell_(shell_count(surface_.shape(), side, surface_.order(), accuracy)),
       table_(surface_.grid(), n_shell_, InterpolationWindow::width_for(accuracy)),
-      operator_(surface_, side, n_shell_, accuracy) {}
+      operator_(surface_, side, n_shell_, accuracy) {
+  ASTERFLOW_REQUIRE(surface_.grading().uniform());
+}
 
 DirichletFlow::Targets DirichletFlow::plan(ConstPoints targets) const {
   Targets result;
@@ -43,14 +45,13 @@ void DirichletFlow::plan(ConstPoints targets, Targets& result) const {
   parallel_for("DirichletFlow::plan", (n + chunk - 1) / chunk, [&](long block) {
     for (long i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
       ShellPoint const at = surface_.shape().shell_point(targets[i]);
-      double const outside = side_ == Side::interior ? -at.depth : at.depth;
+      double const outside = side_ == Side::interior ? at.rho - 1.0 : 1.0 - at.rho;
       if (!(outside <= 1e-3))
         throw NumericalError(fmt::format("target {} at ({}, {}, {}) um lies on the wrong side of a surface, scale {}", i,
                                          targets[i].x, targets[i].y, targets[i].z, at.rho));
       double const scale = std::min(1.0, side_ == Side::interior ? at.rho : 1.0 / at.rho);
-      double const rest = std::max(0.0, side_ == Side::interior ? at.depth : -at.depth * scale);
-      double const psi = 2.0 * std::atan2(std::sqrt(rest), std::sqrt(scale));
-      result.points_[i] = {table_.locate(psi, at.theta, at.phi), side_ == Side::interior ? 1.0 : scale};
+      double const psi = 2.0 * std::atan2(std::sqrt(1.0 - scale), std::sqrt(scale));
+      result.points_[i] = {table_.locate(psi, surface_.to_polar(at.direction)), side_ == Side::interior ? 1.0 : scale};
     }
   });
 }
@@ -66,16 +67,16 @@ void DirichletFlow::add_velocity(ConstPoints boundary_velocity, Targets const& t
       Targets::Point const& point = targets.points_[i];
       double u[3];
       table_.interpolate(values_, point.table, u);
-      velocity[i] += point.factor * surface_.shape().from_polar({u[0], u[1], u[2]});
+      velocity[i] += point.factor * surface_.from_polar({u[0], u[1], u[2]});
     }
   });
 }
 
 Vector6 DirichletFlow::load(ConstPoints boundary_velocity) const {
   Vector6 const polar = operator_.load(boundary_velocity);
-  Vec3d const force = surface_.shape().from_polar({polar[0], polar[1], polar[2]});
+  Vec3d const force = surface_.from_polar({polar[0], polar[1], polar[2]});
   Vec3d const torque =
-      surface_.shape().from_polar({polar[3], polar[4], polar[5]}) + cross(surface_.shape().centre(), force);
+      surface_.from_polar({polar[3], polar[4], polar[5]}) + cross(surface_.shape().centre(), force);
   return {force.x, force.y, force.z, torque.x, torque.y, torque.z};
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace asterflow {
 namespace {
@@ -15,8 +14,6 @@ int choose_polar_axis(Vec3d a) {
   if (a.x == a.y) return 2;
   return a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2);
 }
-
-Vec3d cyclic(Vec3d v, int first) { return {v[first], v[(first + 1) % 3], v[(first + 2) % 3]}; }
 
 // The closest point is y_i = a_i^2 x_i / (a_i^2 + t), where t is the largest root of
 //   g(t) = sum_i (a_i x_i / (a_i^2 + t))^2 - 1,  convex and falling for t > -min a_i^2.
@@ -44,19 +41,18 @@ double lagrange_multiplier(Vec3d a, Vec3d x) {
 
 }  // namespace
 
-Ellipsoid::Ellipsoid(Vec3d semi_axes) : Shape(choose_polar_axis(semi_axes)), axes_(cyclic(semi_axes, polar_axis())) {
+Ellipsoid::Ellipsoid(Vec3d semi_axes) : Shape(choose_polar_axis(semi_axes)), axes_(semi_axes) {
   ASTERFLOW_REQUIRE(semi_axes.x > 0 && semi_axes.y > 0 && semi_axes.z > 0);
 }
 
-SurfacePatch Ellipsoid::patch(double theta, double phi) const {
-  double const s = std::sin(theta), c = std::cos(theta), cp = std::cos(phi), sp = std::sin(phi);
-  Vec3d const position{axes_.x * c, axes_.y * s * cp, axes_.z * s * sp};
-  Vec3d const area{axes_.y * axes_.z * s * c, axes_.x * axes_.z * s * s * cp, axes_.x * axes_.y * s * s * sp};
-  return {from_polar(position), from_polar(area)};
+bool Ellipsoid::axisymmetric() const { return axes_[(polar_axis() + 1) % 3] == axes_[(polar_axis() + 2) % 3]; }
+
+SphereImage Ellipsoid::image(Vec3d d) const {
+  return {{axes_.x * d.x, axes_.y * d.y, axes_.z * d.z}, Eigen::Vector3d(axes_.x, axes_.y, axes_.z).asDiagonal()};
 }
 
-ClosestPoint Ellipsoid::closest_point(Vec3d target) const {
-  Vec3d const x = to_polar(target), a = axes_;
+ClosestPoint Ellipsoid::closest_point(Vec3d x) const {
+  Vec3d const a = axes_;
   double const t = lagrange_multiplier(a, x);
   Vec3d direction, offset;  // direction: y_i / a_i; offset: x - y = t x_i / (a_i^2 + t)
   double rest = 1.0;
@@ -77,26 +73,15 @@ ClosestPoint Ellipsoid::closest_point(Vec3d target) const {
   }
   Vec3d const y{a.x * direction.x, a.y * direction.y, a.z * direction.z};
   Vec3d const gradient{direction.x / a.x, direction.y / a.y, direction.z / a.z};
-  ClosestPoint result;
-  result.position = from_polar(y);
-  result.normal = from_polar(normalized(gradient));
-  result.distance = std::copysign(norm(offset), t);
-  result.theta = std::atan2(std::hypot(direction.y, direction.z), direction.x);
-  result.phi = std::atan2(direction.z, direction.y);
-  return result;
+  return {y, normalized(gradient), std::copysign(norm(offset), t), direction};
 }
 
-ShellPoint Ellipsoid::shell_point(Vec3d target) const {
-  Vec3d const x = to_polar(target);
+ShellPoint Ellipsoid::shell_point(Vec3d x) const {
   Vec3d const d{x.x / axes_.x, x.y / axes_.y, x.z / axes_.z};
-  double const rho = norm(d);
-  return {rho, std::atan2(std::hypot(d.y, d.z), d.x), std::atan2(d.z, d.y), 1.0 - rho};
+  return {norm(d), d};
 }
 
 double Ellipsoid::size() const { return std::max({axes_.x, axes_.y, axes_.z}); }
 double Ellipsoid::aspect_ratio() const { return size() / std::min({axes_.x, axes_.y, axes_.z}); }
-std::string Ellipsoid::key() const {
-  return fmt::format("ellipsoid {} {:a} {:a} {:a}", polar_axis(), axes_.x, axes_.y, axes_.z);
-}
 
 }  // namespace asterflow

@@ -9,16 +9,15 @@ class Ellipsoid : public Shape {
  public:
   explicit Ellipsoid(Vec3d semi_axes);
 
-  bool axisymmetric() const override { return axes_.y == axes_.z; }
-  SurfacePatch patch(double theta, double phi) const override;
+  bool axisymmetric() const override;
+  SphereImage image(Vec3d direction) const override;
   ClosestPoint closest_point(Vec3d x) const override;
   ShellPoint shell_point(Vec3d x) const override;
   double size() const override;
   double aspect_ratio() const override;
-  std::string key() const override;
 
  private:
-  Vec3d axes_;  // along e_1, e_2, e_3
+  Vec3d axes_;
 };
 
 }  // namespace asterflow

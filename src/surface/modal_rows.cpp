@@ -20,7 +20,7 @@ constexpr int odd_out[n_odd] = {0, 1, 2, 2}, odd_in[n_odd] = {2, 2, 0, 1};
 constexpr double odd_sign[n_odd] = {-1, -1, 1, 1};  // from the factors i of the azimuthal components
 
 // Radial and azimuthal components of a smooth field have the parity of mode m + 1.
-bool is_odd_in_theta(int component, int m) { return ((component > 0) + m) % 2 != 0; }
+bool is_odd_in_t(int component, int m) { return ((component > 0) + m) % 2 != 0; }
 
 // Rule on the half circle [0, pi] (weights for the full circle by symmetry), singular at a complex angle i delta.
 void azimuth_rule(double delta, int order, double digits, std::vector<RulePoint>& rule) {
@@ -34,13 +34,13 @@ void azimuth_rule(double delta, int order, double digits, std::vector<RulePoint>
   for (auto& point : rule) point.weight *= 2.0;
 }
 
-// Kernel entries on one ring, times weights: even [n_even, n], odd [n_odd, n].
-void ring_kernel(CylindricalPoint x, SurfacePatch const& y, std::vector<RulePoint> const& rule, double weight,
+// Kernel entries on one ring (position and area vector at phi = 0), times weights: even [n_even, n], odd [n_odd, n].
+void ring_kernel(CylindricalPoint x, Vec3d y, Vec3d area, std::vector<RulePoint> const& rule, double weight,
                  MatrixXd& even, MatrixXd& odd) {
   auto const n = static_cast<Eigen::Index>(rule.size());
   even.resize(n, n_even);
   odd.resize(n, n_odd);
-  double const z = y.position.x, r = y.position.y, area_z = y.area_vector.x, area_r = y.area_vector.y;
+  double const z = y.x, r = y.y;
   for (Eigen::Index k = 0; k < n; ++k) {
     // 1 - cos phi without cancellation keeps the small separations exact.
     double const half = std::sin(0.5 * rule[k].x), versine = 2.0 * half * half, sine = std::sin(rule[k].x);
@@ -49,7 +49,7 @@ void ring_kernel(CylindricalPoint x, SurfacePatch const& y, std::vector<RulePoin
     double const out[3] = {dz, dr + r * versine, -r * sine};     // separation . (e_1, e_r(0), e_phi(0))
     double const square = dz * dz + dr * dr + 2.0 * r * x.r * versine;
     double const inverse = 1.0 / square;
-    double const factor = -3.0 / (4.0 * pi) * weight * rule[k].weight * (area_z * in[0] + area_r * in[1]) * inverse *
+    double const factor = -3.0 / (4.0 * pi) * weight * rule[k].weight * (area.x * in[0] + area.y * in[1]) * inverse *
                           inverse * std::sqrt(inverse);
     for (int e = 0; e < n_even; ++e) even(k, e) = factor * out[even_out[e]] * in[even_in[e]];
     for (int o = 0; o < n_odd; ++o) odd(k, o) = factor * odd_sign[o] * out[odd_out[o]] * in[odd_in[o]];
@@ -77,54 +77,50 @@ void harmonics(std::vector<RulePoint> const& rule, int order, MatrixXd& cosines,
 }  // namespace
 
 ModalRows::ModalRows(Surface const& surface, double digits)
-    : shape_(surface.shape()), order_(surface.order()), digits_(digits) {
+    : surface_(surface), order_(surface.order()), digits_(digits) {
   auto const& grid = surface.grid();
   int const n = grid.n_ring();
   nodes_to_legendre_.resize(n, n);
   std::vector<double> values(n);
   for (int j = 0; j < n; ++j) {
-    double const theta = grid.polar_angles()[j];
-    sin_theta_.push_back(std::sin(theta));
-    legendre_polynomials(std::cos(theta), order_, values.data());
+    double const t = grid.polar_angles()[j];
+    sin_t_.push_back(std::sin(t));
+    legendre_polynomials(std::cos(t), order_, values.data());
     for (int l = 0; l < n; ++l) nodes_to_legendre_(l, j) = grid.ring_weights()[j] * (l + 0.5) * values[l];
   }
 }
 
 ModalRowSet ModalRows::at(CylindricalPoint target) const {
-  ClosestPoint const closest = shape_.closest_point(shape_.from_polar({target.z, target.r, 0.0}));
-  return integrate(target, {closest.theta, std::abs(closest.distance), closest.distance < 0 ? 1.0 : 0.0});
+  ClosestAngles const closest = surface_.closest_angles(surface_.from_polar({target.z, target.r, 0.0}));
+  return integrate(target, {closest.t, std::abs(closest.distance), closest.distance < 0 ? 1.0 : 0.0});
 }
 
-ModalRowSet ModalRows::on_surface(double theta) const {
-  Vec3d const x = shape_.to_polar(shape_.patch(theta, 0.0).position);
-  return integrate({x.x, x.y}, {theta, 0.0, 0.5});
+ModalRowSet ModalRows::on_surface(double t) const {
+  Vec3d const x = surface_.to_polar(surface_.patch(t, 0.0).position);
+  return integrate({x.x, x.y}, {t, 0.0, 0.5});
 }
 
 ModalRowSet ModalRows::integrate(CylindricalPoint target, Singularity const& near) const {
   int const n_mode = order_ + 1;
-  double const step = 1e-4;
-  double const stretch = norm(shape_.patch(std::min(near.theta + step, pi), 0.0).position -
-                              shape_.patch(std::max(near.theta - step, 0.0), 0.0).position) /
-                         (std::min(near.theta + step, pi) - std::max(near.theta - step, 0.0));
+  double const stretch = norm(surface_.patch(near.t, 0.0).tangent_t);
   std::vector<RulePoint> meridian, azimuth;
-  append_graded_rule(0.0, near.theta, pi, near.distance / stretch, {digits_, order_ + 2.0}, meridian);
+  append_graded_rule(0.0, near.t, pi, near.distance / stretch, {digits_, order_ + 2.0}, meridian);
 
-  auto const n_theta = static_cast<Eigen::Index>(meridian.size());
-  MatrixXd modal_even(n_theta, n_even * n_mode), modal_odd(n_theta, n_odd * n_mode), even, odd, cosines, sines;
-  MatrixXd legendre(n_theta, n_mode);
-  Eigen::VectorXd sine(n_theta);
+  auto const n_t = static_cast<Eigen::Index>(meridian.size());
+  MatrixXd modal_even(n_t, n_even * n_mode), modal_odd(n_t, n_odd * n_mode), even, odd, cosines, sines;
+  MatrixXd legendre(n_t, n_mode);
+  Eigen::VectorXd sine(n_t);
   std::vector<double> values(n_mode);
   int trapezoid_size = -1;  // harmonics of the last trapezoid rule are kept
-  for (Eigen::Index s = 0; s < n_theta; ++s) {
-    SurfacePatch y = shape_.patch(meridian[s].x, 0.0);
-    y = {shape_.to_polar(y.position), shape_.to_polar(y.area_vector)};
-    double const gap = std::hypot(target.z - y.position.x, target.r - y.position.y);
-    double const product = target.r * y.position.y;
+  for (Eigen::Index s = 0; s < n_t; ++s) {
+    SurfacePatch const patch = surface_.patch(meridian[s].x, 0.0);
+    Vec3d const y = surface_.to_polar(patch.position), area = surface_.to_polar(patch.area_vector());
+    double const gap = std::hypot(target.z - y.x, target.r - y.y), product = target.r * y.y;
     double const delta = product > 0.0 ? 2.0 * std::asinh(0.5 * gap / std::sqrt(product)) : 10.0;
     azimuth_rule(std::min(delta, 10.0), order_, digits_, azimuth);
     if (delta <= 0.3 || static_cast<int>(azimuth.size()) != trapezoid_size) harmonics(azimuth, order_, cosines, sines);
     trapezoid_size = delta > 0.3 ? static_cast<int>(azimuth.size()) : -1;
-    ring_kernel(target, y, azimuth, meridian[s].weight, even, odd);
+    ring_kernel(target, y, area, azimuth, meridian[s].weight, even, odd);
     MatrixXd const e = cosines.transpose() * even, o = sines.transpose() * odd;
     for (int c = 0; c < n_even; ++c) modal_even.row(s).segment(c * n_mode, n_mode) = e.col(c);
     for (int c = 0; c < n_odd; ++c) modal_odd.row(s).segment(c * n_mode, n_mode) = o.col(c);
@@ -135,14 +131,14 @@ ModalRowSet ModalRows::integrate(CylindricalPoint target, Singularity const& nea
 
   MatrixXd const to_even = legendre * nodes_to_legendre_;
   MatrixXd to_odd = sine.asDiagonal() * to_even;
-  for (int j = 0; j < n_mode; ++j) to_odd.col(j) /= sin_theta_[j];
+  for (int j = 0; j < n_mode; ++j) to_odd.col(j) /= sin_t_[j];
   ModalRowSet rows(n_mode, Eigen::Matrix<double, 3, Eigen::Dynamic>(3, 3 * n_mode));
   auto const project = [&](MatrixXd const& modal, int count, int const* out, int const* in) {
     MatrixXd const by_even = modal.transpose() * to_even, by_odd = modal.transpose() * to_odd;
     for (int c = 0; c < count; ++c)
       for (int m = 0; m < n_mode; ++m)
         rows[m].row(out[c]).segment(in[c] * n_mode, n_mode) =
-            (is_odd_in_theta(in[c], m) ? by_odd : by_even).row(c * n_mode + m);
+            (is_odd_in_t(in[c], m) ? by_odd : by_even).row(c * n_mode + m);
   };
   project(modal_even, n_even, even_out, even_in);
   project(modal_odd, n_odd, odd_out, odd_in);
@@ -150,12 +146,12 @@ ModalRowSet ModalRows::integrate(CylindricalPoint target, Singularity const& nea
   return rows;
 }
 
-void ModalRows::interpolation_values(double theta, double* even, double* odd) const {
+void ModalRows::interpolation_values(double t, double* even, double* odd) const {
   int const n = order_ + 1;
   Eigen::VectorXd legendre(n);
-  legendre_polynomials(std::cos(theta), order_, legendre.data());
+  legendre_polynomials(std::cos(t), order_, legendre.data());
   Eigen::Map<Eigen::VectorXd>(even, n) = nodes_to_legendre_.transpose() * legendre;
-  for (int j = 0; j < n; ++j) odd[j] = even[j] * std::sin(theta) / sin_theta_[j];
+  for (int j = 0; j < n; ++j) odd[j] = even[j] * std::sin(t) / sin_t_[j];
 }
 
 // Mode 0 holds the constant e_1 as (1, 0, 0), mode 1 the constants normal to it as (0, 1, 1). What their rows miss of
@@ -169,10 +165,10 @@ void ModalRows::remove_constant_defect(Singularity const& near, ModalRowSet& row
   }
   defect(2, 2) = near.jump - rows[1].row(2).tail(2 * n).sum();
   std::vector<double> even(n), odd(n);
-  interpolation_values(near.theta, even.data(), odd.data());
+  interpolation_values(near.t, even.data(), odd.data());
   for (int m = 0; m < n; ++m)
     for (int c = 0; c < 3; ++c) {
-      auto const& cardinal = is_odd_in_theta(c, m) ? odd : even;
+      auto const& cardinal = is_odd_in_t(c, m) ? odd : even;
       for (int j = 0; j < n; ++j) rows[m].col(c * n + j) += defect.col(c) * cardinal[j];
     }
 }

@@ -92,10 +92,13 @@ Revolution::MeridianPoint Revolution::meridian(double theta) const {
   return {R * c, R * s, dR * c - R * s, dR * s + R * c, (ddR - R) * c - 2.0 * dR * s, (ddR - R) * s + 2.0 * dR * c};
 }
 
-SurfacePatch Revolution::patch(double theta, double phi) const {
-  MeridianPoint const p = meridian(theta);
-  double const cp = std::cos(phi), sp = std::sin(phi);
-  return {{centre_ + p.z, p.r * cp, p.r * sp}, {p.r * p.dr, -p.r * p.dz * cp, -p.r * p.dz * sp}};
+SphereImage Revolution::image(Vec3d d) const {
+  double const sine = std::hypot(d.y, d.z);
+  auto const [R, dR, ddR] = radius(std::atan2(sine, d.x));
+  double const slope = sine > 1e-8 ? dR / sine : (d.x > 0.0 ? ddR : -ddR);  // - dR / d(d_x)
+  Eigen::Matrix3d jacobian = R * Eigen::Matrix3d::Identity();
+  jacobian.col(0) -= slope * Eigen::Vector3d(d.x, d.y, d.z);
+  return {{centre_ + R * d.x, R * d.y, R * d.z}, jacobian};
 }
 
 // Zero of (X - x) . X' next to the nearest sample: Newton, kept inside the bracket by bisection.
@@ -123,28 +126,18 @@ double Revolution::closest_angle(double z, double r) const {
 
 ClosestPoint Revolution::closest_point(Vec3d x) const {
   double const z = x.x - centre_, r = std::hypot(x.y, x.z);
-  double const theta = closest_angle(z, r), phi = std::atan2(x.z, x.y);
+  double const theta = closest_angle(z, r), c = r > 0.0 ? x.y / r : 1.0, s = r > 0.0 ? x.z / r : 0.0;
   MeridianPoint const p = meridian(theta);
   double const stretch = std::hypot(p.dz, p.dr), n_z = p.dr / stretch, n_r = -p.dz / stretch;
-  ClosestPoint result;
-  result.position = {centre_ + p.z, p.r * std::cos(phi), p.r * std::sin(phi)};
-  result.normal = {n_z, n_r * std::cos(phi), n_r * std::sin(phi)};
-  result.distance = n_z * (z - p.z) + n_r * (r - p.r);
-  result.theta = theta;
-  result.phi = phi;
-  return result;
+  return {{centre_ + p.z, p.r * c, p.r * s},
+          {n_z, n_r * c, n_r * s},
+          n_z * (z - p.z) + n_r * (r - p.r),
+          {std::cos(theta), std::sin(theta) * c, std::sin(theta) * s}};
 }
 
 ShellPoint Revolution::shell_point(Vec3d x) const {
-  double const z = x.x - centre_, r = std::hypot(x.y, x.z), theta = std::atan2(r, z);
-  double const rho = std::hypot(z, r) / radius(theta)[0];
-  return {rho, theta, std::atan2(x.z, x.y), 1.0 - rho};
-}
-
-std::string Revolution::key() const {
-  std::string key = fmt::format("revolution {:a}", centre_);
-  for (double const c : coefficients_) key += fmt::format(" {:a}", c);
-  return key;
+  Vec3d const arm = x - centre();
+  return {norm(arm) / radius(std::atan2(std::hypot(arm.y, arm.z), arm.x))[0], arm};
 }
 
 }  // namespace asterflow

@@ -1,6 +1,6 @@
 #pragma once
 // Surface of revolution about the x axis, star-shaped about its centre, the midpoint of its poles:
-//   X = centre + R(theta) d(theta, phi),   R(theta) = sum_k c_k cos(k theta),   theta = 0 at the pole of larger x.
+//   X = centre + R(theta) d,   R(theta) = sum_k c_k cos(k theta),   cos theta = d_x.
 // c is the least-squares fit of the lowest degree that meets the profile's points to 1e-9 of its size, or of the
 // highest degree that the number of points allows.
 
@@ -17,12 +17,11 @@ class Revolution : public Shape {
 
   bool axisymmetric() const override { return true; }
   Vec3d centre() const override { return {centre_, 0.0, 0.0}; }
-  SurfacePatch patch(double theta, double phi) const override;
+  SphereImage image(Vec3d direction) const override;
   ClosestPoint closest_point(Vec3d x) const override;
   ShellPoint shell_point(Vec3d x) const override;
   double size() const override { return largest_; }
   double aspect_ratio() const override { return largest_ / smallest_; }
-  std::string key() const override;
 
  private:
   // Meridian relative to the centre and its derivatives with respect to theta.

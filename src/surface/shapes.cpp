@@ -17,6 +17,14 @@ void require_positive(char const* name, double value) {
 
 }  // namespace
 
+Vec3d Shape::point(double theta, double phi) const {
+  double const along = std::cos(theta), across[2] = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi)};
+  Vec3d direction;
+  direction[polar_axis_] = along;
+  for (int i : {0, 1}) direction[(polar_axis_ + 1 + i) % 3] = across[i];
+  return image(direction).position;
+}
+
 std::shared_ptr<Shape const> make_shape(ShapeSpec const& spec) {
   switch (spec.kind) {
     case ShapeSpec::Kind::sphere:

@@ -57,9 +57,10 @@ ShellTable::ShellTable(SphereGrid const& grid, int n_shell, int window_width)
   for (int m = 0; m < n_ring_; ++m) phi_correction_.push_back(1.0 / window_.transform(static_cast<double>(m) / n_phi_));
 }
 
-TablePoint ShellTable::locate(double psi, double theta, double phi) const {
-  double const turns = phi / (2.0 * pi);
-  return {psi / pi * n_psi_, theta / pi * n_theta_, (turns - std::floor(turns)) * n_phi_, std::cos(phi), std::sin(phi)};
+TablePoint ShellTable::locate(double psi, Vec3d d) const {
+  double const sine = std::hypot(d.y, d.z), theta = std::atan2(sine, d.x), turns = std::atan2(d.z, d.y) / (2.0 * pi);
+  return {psi / pi * n_psi_, theta / pi * n_theta_, (turns - std::floor(turns)) * n_phi_,
+          sine > 0.0 ? d.y / sine : 1.0, sine > 0.0 ? d.z / sine : 0.0};
 }
 
 std::size_t ShellTable::memory() const {

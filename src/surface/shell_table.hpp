@@ -5,6 +5,7 @@
 // so psi = 0 is the surface and psi = pi the centre or infinity. In all three the field continues as a periodic function.
 // Components are cylindrical about the polar axis: (axial, radial, azimuthal).
 
+#include "base/vec3.hpp"
 #include "surface/azimuth_transform.hpp"
 #include "surface/interpolation_window.hpp"
 #include "surface/sphere_grid.hpp"
@@ -33,7 +34,7 @@ class ShellTable {
   ShellTable(SphereGrid const& grid, int n_shell, int window_width);
 
   int n_shell() const { return n_shell_; }
-  TablePoint locate(double psi, double theta, double phi) const;
+  TablePoint locate(double psi, Vec3d direction) const;  // components of the direction along (e_1, e_2, e_3), any length
 
   struct Values {
     std::vector<double> velocity;           // [psi, theta, component, phi]

@@ -4,21 +4,55 @@
 #include <numbers>
 
 namespace asterflow {
+namespace {
 
-Surface::Surface(std::shared_ptr<Shape const> shape, int order) : shape_(std::move(shape)), grid_(order) {
+Vec3d product(Eigen::Matrix3d const& a, Vec3d v) {
+  Eigen::Vector3d const result = a * Eigen::Vector3d(v.x, v.y, v.z);
+  return {result[0], result[1], result[2]};
+}
+
+bool is_axisymmetric(Shape const& shape, Grading const& grading) {
+  if (shape.aspect_ratio() == 1.0) return true;
+  return shape.axisymmetric() && std::abs(grading.frame()(shape.polar_axis(), 0)) > 1.0 - 1e-15;
+}
+
+}  // namespace
+
+Surface::Surface(std::shared_ptr<Shape const> shape, int order)
+    : Surface(shape, order, Grading(axis_frame(shape->polar_axis()))) {}
+
+Surface::Surface(std::shared_ptr<Shape const> shape, int order, Grading const& grading)
+    : shape_(std::move(shape)), grid_(order), grading_(grading), axisymmetric_(is_axisymmetric(*shape_, grading)) {
   for (int j = 0; j < grid_.n_ring(); ++j) {
-    double const theta = grid_.polar_angles()[j];
-    double const cell = grid_.ring_weights()[j] / std::sin(theta) * 2.0 * std::numbers::pi / grid_.n_azimuth();
+    double const t = grid_.polar_angles()[j];
+    double const cell = grid_.ring_weights()[j] / std::sin(t) * 2.0 * std::numbers::pi / grid_.n_azimuth();
     for (int k = 0; k < grid_.n_azimuth(); ++k) {
-      SurfacePatch const patch = shape_->patch(theta, grid_.azimuth(k));
-      double const stretch = norm(patch.area_vector);
-      nodes_.push_back(patch.position);
-      normals_.push_back(patch.area_vector / stretch);
+      SurfacePatch const at = patch(t, grid_.azimuth(k));
+      double const stretch = norm(at.area_vector());
+      nodes_.push_back(at.position);
+      normals_.push_back(at.area_vector() / stretch);
       weights_.push_back(cell * stretch);
       area_ += weights_.back();
       volume_ += weights_.back() * dot(nodes_.back() - shape_->centre(), normals_.back()) / 3.0;
     }
   }
 }
+
+SurfacePatch Surface::patch(double t, double phi) const {
+  auto const [theta, slope] = grading_.polar_angle(t);
+  double const c = std::cos(theta), s = std::sin(theta), cp = std::cos(phi), sp = std::sin(phi);
+  SphereImage const image = shape_->image(from_polar({c, s * cp, s * sp}));
+  return {image.position, product(image.jacobian, slope * from_polar({-s, c * cp, c * sp})),
+          product(image.jacobian, from_polar({0.0, -s * sp, s * cp}))};
+}
+
+ClosestAngles Surface::closest_angles(Vec3d x) const {
+  ClosestPoint const closest = shape_->closest_point(x);
+  Vec3d const d = to_polar(closest.direction);
+  return {grading_.grid_angle(std::atan2(std::hypot(d.y, d.z), d.x)), std::atan2(d.z, d.y), closest.distance};
+}
+
+Vec3d Surface::to_polar(Vec3d v) const { return product(grading_.frame().transpose(), v); }
+Vec3d Surface::from_polar(Vec3d v) const { return product(grading_.frame(), v); }
 
 }  // namespace asterflow

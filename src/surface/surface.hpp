@@ -1,20 +1,37 @@
 #pragma once
-// A closed surface as quadrature nodes: a shape sampled on the Gauss-Legendre x trapezoid grid of order p.
-// Spectrally accurate for smooth integrands: int f dS = sum_i weights[i] f(nodes[i]). Shape's own frame.
+// A closed surface as quadrature nodes: a shape sampled on the Gauss-Legendre x trapezoid grid of order p, whose angles
+// (t, phi) parametrise the shape through a grading of the sphere. Spectrally accurate for smooth integrands:
+// int f dS = sum_i weights[i] f(nodes[i]). Coordinates are the shape's own frame.
 
 #include "base/arrays.hpp"
+#include "surface/grading.hpp"
 #include "surface/shapes.hpp"
 #include "surface/sphere_grid.hpp"
 
 namespace asterflow {
 
+// One point of the surface and its derivatives with respect to the grid angles.
+struct SurfacePatch {
+  Vec3d position;       // um
+  Vec3d tangent_t;      // um
+  Vec3d tangent_phi;    // um
+  Vec3d area_vector() const { return cross(tangent_t, tangent_phi); }  // um^2, outward
+};
+
+// Grid angles of the closest point.
+struct ClosestAngles {
+  double t, phi;
+  double distance;  // um, signed: negative inside
+};
+
 class Surface {
  public:
-  Surface(std::shared_ptr<Shape const> shape, int order);
+  Surface(std::shared_ptr<Shape const> shape, int order);  // plain, about the shape's polar axis
+  Surface(std::shared_ptr<Shape const> shape, int order, Grading const& grading);
 
   Shape const& shape() const { return *shape_; }
-  std::shared_ptr<Shape const> const& shared_shape() const { return shape_; }
   SphereGrid const& grid() const { return grid_; }
+  Grading const& grading() const { return grading_; }
   int order() const { return grid_.order(); }
   std::size_t size() const { return grid_.size(); }
 
@@ -24,9 +41,19 @@ class Surface {
   double area() const { return area_; }             // um^2
   double volume() const { return volume_; }         // um^3
 
+  bool axisymmetric() const { return axisymmetric_; }  // in phi, with its grid
+  SurfacePatch patch(double t, double phi) const;
+  ClosestAngles closest_angles(Vec3d x) const;
+
+  // Components along (e_1, e_2, e_3) of the grading, and back.
+  Vec3d to_polar(Vec3d v) const;
+  Vec3d from_polar(Vec3d v) const;
+
  private:
   std::shared_ptr<Shape const> shape_;
   SphereGrid grid_;
+  Grading grading_;
+  bool axisymmetric_;
   PointArray nodes_, normals_;
   std::vector<double> weights_;
   double area_ = 0.0, volume_ = 0.0;

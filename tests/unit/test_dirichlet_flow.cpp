@@ -121,7 +121,7 @@ TEST(DirichletFlow, surface_of_revolution_meets_the_flow_of_a_point_force) {
     PointArray targets;
     for (int i = 0; i < 200; ++i) {
       double const depth = std::pow(10.0, -12.0 * uniform_random(5, i, 0, 0)), scale = side == Side::interior ? 1.0 - depth : 1.0 / (1.0 - depth);
-      SurfacePatch const patch = flow.surface().shape().patch(pi * uniform_random(5, i, 0, 1), 2.0 * pi * uniform_random(5, i, 0, 2));
+      SurfacePatch const patch = flow.surface().patch(pi * uniform_random(5, i, 0, 1), 2.0 * pi * uniform_random(5, i, 0, 2));
       targets.push_back(flow.surface().shape().centre() + scale * (patch.position - flow.surface().shape().centre()));
     }
     PointArray u(targets.size());

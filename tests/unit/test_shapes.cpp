@@ -69,8 +69,7 @@ TEST(Shapes, closest_point_lies_on_the_surface_along_its_normal) {
       ClosestPoint const c = shape->closest_point(x);
       double const tolerance = 1e-12 * shape->size();
       EXPECT_LT(norm(x - c.position - c.distance * c.normal), tolerance);
-      SurfacePatch const patch = shape->patch(c.theta, c.phi);
-      EXPECT_LT(norm(patch.position - c.position), tolerance);
+      EXPECT_LT(norm(shape->image(c.direction).position - c.position), tolerance);
       EXPECT_NEAR(shape->shell_point(c.position).rho, 1.0, 1e-12);
       EXPECT_EQ(c.distance < 0.0, shape->shell_point(x).rho < 1.0);
     }
@@ -91,8 +90,8 @@ TEST(Shapes, no_surface_node_is_closer_than_the_closest_point) {
 TEST(Shapes, signed_distance_keeps_its_relative_accuracy_at_the_surface) {
   auto const shape = make_shape(ellipsoid(25, 15, 15));
   for (double const offset : {1e-3, 1e-6, 1e-9}) {
-    SurfacePatch const patch = shape->patch(0.7, 0.3);
-    Vec3d const x = patch.position - offset * normalized(patch.area_vector);
+    ClosestPoint const on = shape->closest_point({20, 9, 5});
+    Vec3d const x = on.position - offset * on.normal;
     EXPECT_NEAR(shape->signed_distance(x), -offset, 1e-13);
   }
 }
