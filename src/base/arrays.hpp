@@ -26,4 +26,12 @@ inline Eigen::Map<Eigen::VectorXd const> flat(ConstPoints p) {
   return {p.empty() ? nullptr : &p.front().x, static_cast<Eigen::Index>(3 * p.size())};
 }
 
+
+// [3 n] numbers as n points and back.
+inline ConstPoints as_points(ConstVector v) { return {reinterpret_cast<Vec3d const*>(v.data()), v.size() / 3}; }
+inline Points as_points(Vector v) { return {reinterpret_cast<Vec3d*>(v.data()), v.size() / 3}; }
+inline ConstVector as_vector(ConstPoints p) { return {reinterpret_cast<double const*>(p.data()), 3 * p.size()}; }
+inline Vector as_vector(Points p) { return {reinterpret_cast<double*>(p.data()), 3 * p.size()}; }
+inline Vector as_vector(PointArray& p) { return as_vector(Points(p)); }
+
 }  // namespace asterflow

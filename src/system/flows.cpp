@@ -1,0 +1,55 @@
+#include "system/flows.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace asterflow {
+namespace {
+
+constexpr int lowest_order = 6;
+
+// Builds each flow once.
+class FlowLibrary {
+ public:
+  FlowLibrary(double accuracy, Resolution resolution) : accuracy_(accuracy), resolution_(resolution) {}
+
+  Radiation::Flow get(ShapeSpec const& spec, int order_in_scene, Side side) {
+    auto const shape = make_shape(spec);
+    int const order = surface_order(spec, order_in_scene, accuracy_, resolution_);
+    auto const [entry, is_new] = flows_.try_emplace({shape->key(), order, side == Side::interior});
+    if (is_new)
+      entry->second = std::make_shared<DirichletFlow const>(Surface(shape, order), side,
+                                                            resolution_ == Resolution::fine ? accuracy_ : 1e-3);
+    return entry->second;
+  }
+
+ private:
+  double accuracy_;
+  Resolution resolution_;
+  std::map<std::tuple<std::string, int, bool>, Radiation::Flow> flows_;
+};
+
+}  // namespace
+
+int surface_order(ShapeSpec const& shape, int order_in_scene, double accuracy, Resolution resolution) {
+  int const order = order_in_scene > 0 ? order_in_scene : default_order(*make_shape(shape), accuracy);
+  return resolution == Resolution::fine ? order : std::min(order, std::max(lowest_order, order / 2));
+}
+
+SceneFlows make_flows(Scene const& scene, Resolution resolution) {
+  FlowLibrary library(scene.run.accuracy, resolution);
+  SceneFlows flows;
+  for (auto const& body : scene.bodies) flows.bodies.push_back(library.get(body.shape, body.order, Side::exterior));
+  if (scene.run.interactions == Interactions::confined && scene.periphery)
+    flows.periphery = library.get(scene.periphery->shape, scene.periphery->order, Side::interior);
+  return flows;
+}
+
+Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double viscosity) {
+  Matrix6 turn = Matrix6::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = pose.rotation;
+  return viscosity * turn * flow.resistance() * turn.transpose();
+}
+
+}  // namespace asterflow

@@ -1,0 +1,24 @@
+#pragma once
+// The precomputed flows of a scene's surfaces at one resolution; bodies of equal shape and order share theirs.
+
+#include "io/scene.hpp"
+#include "system/radiation.hpp"
+
+namespace asterflow {
+
+struct SceneFlows {
+  std::vector<Radiation::Flow> bodies;
+  Radiation::Flow periphery;  // null unless the scene is confined
+};
+
+enum class Resolution { fine, coarse };  // coarse: for the preconditioner
+
+SceneFlows make_flows(Scene const& scene, Resolution resolution);
+
+// Spectral order of a surface: the scene's, else from the accuracy of the run.
+int surface_order(ShapeSpec const& shape, int order_in_scene, double accuracy, Resolution resolution);
+
+// Resistance of a body alone in unbounded fluid, force and torque about its centre.
+Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double viscosity);
+
+}  // namespace asterflow

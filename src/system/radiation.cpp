@@ -1,0 +1,160 @@
+#include "system/radiation.hpp"
+
+#include "backends/evaluator.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "kernels/stokeslet.hpp"
+
+#include <numeric>
+
+namespace asterflow {
+
+namespace {
+
+PointArray to_body_frame(RigidPose const& pose, ConstPoints points) {
+  PointArray local(points.size());
+  Matrix3 const back = pose.rotation.transpose();
+  for (std::size_t i = 0; i < points.size(); ++i) local[i] = back * (points[i] - pose.position);
+  return local;
+}
+
+Vector6 rotated(Matrix3 const& rotation, Vector6 const& v) {
+  Vector6 result;
+  result << rotation * v.head<3>(), rotation * v.tail<3>();
+  return result;
+}
+
+Vec3d velocity_of_motion(Vector6 const& motion, Vec3d from_centre) {
+  return to_vec3(motion.head<3>()) + cross(to_vec3(motion.tail<3>()), from_centre);
+}
+
+}  // namespace
+
+Radiation::Radiation(std::vector<Flow> body_flows, Flow periphery_flow, RadiationOptions options)
+    : bodies_(std::move(body_flows)), periphery_(std::move(periphery_flow)), options_(std::move(options)) {}
+
+Radiation::~Radiation() = default;
+
+void Radiation::set_geometry(FiberNodes const& fibers, std::vector<RigidPose> const& poses) {
+  ASTERFLOW_REQUIRE(poses.size() == bodies_.size());
+  poses_ = poses;
+  n_fiber_nodes_ = fibers.positions.size();
+  first_fiber_node_ = *fibers.first;
+  weights_.assign(fibers.weights.begin(), fibers.weights.end());
+  nodes_.assign(fibers.positions.begin(), fibers.positions.end());
+  first_.clear();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    first_.push_back(nodes_.size());
+    for (Vec3d const& node : bodies_[b]->surface().nodes()) nodes_.push_back(poses_[b].point(node));
+  }
+  first_.push_back(nodes_.size());
+  if (periphery_) nodes_.insert(nodes_.end(), periphery_->surface().nodes().begin(), periphery_->surface().nodes().end());
+
+  ConstPoints const all = nodes_;
+  body_targets_.resize(bodies_.size());
+  PointArray others;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    others.assign(all.begin(), all.begin() + first_[b]);
+    others.insert(others.end(), all.begin() + first_[b + 1], all.end());
+    bodies_[b]->plan(to_body_frame(poses_[b], others), body_targets_[b]);
+  }
+  if (periphery_) periphery_->plan(all.first(first_.back()), periphery_targets_);
+
+  if (n_fiber_nodes_ > 0) {
+    if (!stokeslets_)
+      stokeslets_ = make_evaluator(Stokeslet::name, {.backend = options_.evaluator, .accuracy = options_.accuracy});
+    stokeslets_->set_points(fibers.positions, all);
+    strengths_.resize(n_fiber_nodes_);
+  }
+}
+
+Vector6 Radiation::load_of_incident(std::size_t body, ConstPoints incident) const {
+  auto const own = incident.subspan(first_[body], first_[body + 1] - first_[body]);
+  Matrix3 const& rotation = poses_[body].rotation;
+  Matrix3 const back = rotation.transpose();
+  PointArray local(own.size());
+  for (std::size_t i = 0; i < own.size(); ++i) local[i] = back * own[i];
+  return rotated(rotation, options_.viscosity * bodies_[body]->load(local));
+}
+
+PointArray Radiation::wall_velocity(std::size_t body, Vector6 const& motion, ConstPoints incident) const {
+  std::size_t const first = first_[body];
+  Matrix3 const back = poses_[body].rotation.transpose();
+  PointArray wall(first_[body + 1] - first);
+  for (std::size_t i = 0; i < wall.size(); ++i)
+    wall[i] = back * (velocity_of_motion(motion, nodes_[first + i] - poses_[body].position) - incident[first + i]);
+  return wall;
+}
+
+PointArray Radiation::periphery_wall_velocity(ConstPoints incident) const {
+  PointArray wall(incident.begin() + first_.back(), incident.end());
+  for (Vec3d& u : wall) u = -u;
+  return wall;
+}
+
+// Sum over all nodes of all fibers, less each fiber's sum over its own nodes: a fiber's own flow is its local drag.
+void Radiation::add_fibers(ConstPoints force_density, Points received) {
+  double const scale = 1.0 / options_.viscosity;
+  for (std::size_t i = 0; i < n_fiber_nodes_; ++i) strengths_[i] = (scale * weights_[i]) * force_density[i];
+  stokeslets_->add_velocity(strengths_, received);
+  parallel_for("Radiation::own_flow", static_cast<long>(first_fiber_node_.size()) - 1, [&](long fiber) {
+    std::size_t const begin = first_fiber_node_[fiber], end = first_fiber_node_[fiber + 1];
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t j = begin; j < end; ++j)
+        received[i] -= Stokeslet::velocity(nodes_[i] - nodes_[j], strengths_[j]);
+  });
+}
+
+void Radiation::add_bodies(std::vector<Vector6> const& motions, ConstPoints incident, Points received) {
+  PointArray flow;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    flow.assign(body_targets_[b].size(), Vec3d{});
+    bodies_[b]->add_velocity(wall_velocity(b, motions[b], incident), body_targets_[b], flow);
+    std::size_t const skipped = first_[b + 1] - first_[b];
+    for (std::size_t i = 0; i < flow.size(); ++i)
+      received[i < first_[b] ? i : i + skipped] += poses_[b].rotation * flow[i];
+  }
+}
+
+void Radiation::add_periphery(ConstPoints incident, Points received) {
+  if (periphery_)
+    periphery_->add_velocity(periphery_wall_velocity(incident), periphery_targets_, received.first(first_.back()));
+}
+
+void Radiation::exchange(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,
+                         Points received) {
+  ASTERFLOW_REQUIRE(incident.size() == nodes_.size() && received.size() == nodes_.size());
+  std::fill(received.begin(), received.end(), Vec3d{});
+  if (n_fiber_nodes_ > 0) add_fibers(force_density, received);
+  add_bodies(motions, incident, received);
+  add_periphery(incident, received);
+}
+
+void Radiation::add_velocity(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,
+                             ConstPoints targets, Points velocity) const {
+  if (n_fiber_nodes_ > 0) {
+    auto const sum = make_evaluator(Stokeslet::name, {.backend = options_.evaluator, .accuracy = options_.accuracy});
+    PointArray strengths(n_fiber_nodes_);
+    for (std::size_t i = 0; i < n_fiber_nodes_; ++i)
+      strengths[i] = (weights_[i] / options_.viscosity) * force_density[i];
+    sum->set_points(ConstPoints(nodes_).first(n_fiber_nodes_), targets);
+    sum->add_velocity(strengths, velocity);
+  }
+  PointArray local(targets.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    std::fill(local.begin(), local.end(), Vec3d{});
+    bodies_[b]->add_velocity(wall_velocity(b, motions[b], incident), bodies_[b]->plan(to_body_frame(poses_[b], targets)),
+                             local);
+    for (std::size_t i = 0; i < local.size(); ++i) velocity[i] += poses_[b].rotation * local[i];
+  }
+  if (periphery_) periphery_->add_velocity(periphery_wall_velocity(incident), periphery_->plan(targets), velocity);
+}
+
+std::size_t Radiation::memory() const {
+  std::size_t bytes = sizeof(Vec3d) * (nodes_.size() + strengths_.size()) + sizeof(double) * weights_.size();
+  for (auto const& flow : bodies_) bytes += flow->memory();
+  if (periphery_) bytes += periphery_->memory();
+  return bytes + (stokeslets_ ? stokeslets_->memory() : 0);
+}
+
+}  // namespace asterflow

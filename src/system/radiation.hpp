@@ -1,0 +1,94 @@
+#pragma once
+// The flow that every object of a scene sends to all the others, at one resolution.
+//
+// Nodes are numbered: hydrodynamic nodes of the fibers, then surface nodes of each body, then those of the periphery.
+// Incident flow means, at the nodes of one object, the velocity due to all OTHER objects. An object's own flow is
+//   fiber      sum of Stokeslets of strength weight x force density over its nodes     [paper, Eq. 3b]
+//   body       exterior Dirichlet flow with wall velocity U + Omega x r - incident     [Eq. 3d, 5]
+//   periphery  interior Dirichlet flow with wall velocity - incident                   [Eq. 3c, 4]
+
+#include "base/arrays.hpp"
+#include "base/rigid.hpp"
+#include "surface/dirichlet_flow.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace asterflow {
+
+class Evaluator;
+
+// Nodes of fibers, one after the other; fiber i owns [first[i], first[i + 1]).
+struct FiberNodes {
+  ConstPoints positions;                // um
+  ConstVector weights;                  // um
+  std::vector<std::size_t> const* first;  // [n_fiber + 1]
+};
+
+struct RadiationOptions {
+  double viscosity = 1.0;  // pN s/um^2
+  std::string evaluator = "auto";
+  double accuracy = 1e-6;  // of the pair sums
+};
+
+class Radiation {
+ public:
+  using Flow = std::shared_ptr<DirichletFlow const>;
+
+  // One exterior flow per body; an interior one where there is a periphery.
+  Radiation(std::vector<Flow> body_flows, Flow periphery_flow, RadiationOptions options);
+  ~Radiation();
+
+  // Fixes the geometry of a time step.
+  void set_geometry(FiberNodes const& fibers, std::vector<RigidPose> const& poses);
+
+  ConstPoints nodes() const { return nodes_; }
+  std::size_t n_fiber_nodes() const { return n_fiber_nodes_; }
+  std::size_t first_body_node(std::size_t body) const { return first_[body]; }
+  std::size_t first_periphery_node() const { return first_.back(); }
+  bool has_periphery() const { return periphery_ != nullptr; }
+  Surface const& body_surface(std::size_t body) const { return bodies_[body]->surface(); }
+  Surface const& periphery_surface() const { return periphery_->surface(); }
+
+  // Force and torque (about its centre, pN and pN um) of the incident flow on a body that holds still, as Faxen's laws
+  // give for a sphere. A body that moves with q exerts resistance q - this on the fluid.
+  Vector6 load_of_incident(std::size_t body, ConstPoints incident) const;
+
+  // received [n_node] = flow of all other objects.
+  //   force_density [n_fiber_node]  pN/um, on the fluid
+  //   motions [n_body]              velocity and angular velocity of each body
+  //   incident [n_node]             um/s, read at the nodes of bodies and periphery
+  void exchange(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,
+                Points received);
+
+  // Velocity of all objects at points of the fluid, added.
+  void add_velocity(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,
+                    ConstPoints targets, Points velocity) const;
+
+  std::size_t memory() const;
+
+ private:
+  PointArray wall_velocity(std::size_t body, Vector6 const& motion, ConstPoints incident) const;
+  PointArray periphery_wall_velocity(ConstPoints incident) const;
+  void add_fibers(ConstPoints force_density, Points received);
+  void add_bodies(std::vector<Vector6> const& motions, ConstPoints incident, Points received);
+  void add_periphery(ConstPoints incident, Points received);
+
+  std::vector<Flow> bodies_;
+  Flow periphery_;
+  RadiationOptions options_;
+  std::unique_ptr<Evaluator> stokeslets_;  // none while there are no fibers
+
+  std::vector<RigidPose> poses_;
+  std::vector<std::size_t> first_fiber_node_;  // [n_fiber + 1]
+  std::vector<std::size_t> first_;             // [n_body + 1] first node of each body, then of the periphery
+  std::size_t n_fiber_nodes_ = 0;
+  PointArray nodes_;
+  std::vector<double> weights_;
+  std::vector<DirichletFlow::Targets> body_targets_;  // per body: all nodes but its own
+  DirichletFlow::Targets periphery_targets_;          // all nodes but its own
+  PointArray strengths_;                              // [n_fiber_node] pN over viscosity
+};
+
+}  // namespace asterflow

@@ -1,0 +1,165 @@
+#include "system/simulation.hpp"
+
+#include "base/error.hpp"
+#include "base/timer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace asterflow {
+namespace {
+
+// The fibers of a step as the scattering problem sees them.
+class SteppedFibers final : public FiberAnswers {
+ public:
+  explicit SteppedFibers(Fibers const& fibers) : fibers_(fibers) {
+    for (std::size_t i = 0; i <= fibers.count(); ++i) first_.push_back(fibers.first_node(i));
+  }
+  FiberNodes nodes() const override { return {fibers_.nodes(), fibers_.weights(), &first_}; }
+  void add_linear_response(ConstPoints u, std::span<Vector6 const> motions, Points f,
+                           std::span<Vector6> loads) const override {
+    fibers_.add_linear_response(u, motions, f, loads);
+  }
+  void add_affine_response(Points f, std::span<Vector6> loads) const override {
+    fibers_.add_affine_response(f, loads);
+  }
+  void add_body_resistance(std::span<Matrix6> resistances) const override {
+    fibers_.add_body_resistance(resistances);
+  }
+
+ private:
+  Fibers const& fibers_;
+  std::vector<std::size_t> first_;
+};
+
+}  // namespace
+
+struct Simulation::Trial {
+  double dt = 0.0;
+  double error = 0.0;
+  ScatteringSolution solution;
+};
+
+Simulation::Simulation(Scene scene)
+    : scene_(std::move(scene)), fibers_(scene_.fluid.viscosity), flows_(make_flows(scene_, Resolution::fine)) {
+  auto const& run = scene_.run;
+  for (auto const& body : scene_.bodies) bodies_.emplace_back(body);
+  if (scene_.background) background_.emplace(*scene_.background);
+  add_fibers();
+  if (run.interactions != Interactions::local) {
+    RadiationOptions options{scene_.fluid.viscosity, run.evaluator, run.evaluator_accuracy};
+    radiation_ = std::make_unique<Radiation>(flows_.bodies, flows_.periphery, options);
+    if (fibers_.count() > 0) {
+      auto const flows = make_flows(scene_, Resolution::coarse);
+      coarse_ = std::make_unique<Radiation>(flows.bodies, flows.periphery,
+                                            RadiationOptions{scene_.fluid.viscosity, "direct", 1e-3});
+    }
+  }
+  dt_ = run.time_step;
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::add_fibers() {}
+
+std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps) const {
+  std::vector<BodyDrive> drives;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    auto const& body = bodies_[b];
+    BodyDrive drive{maps[b].predicted, body_resistance(*flows_.bodies[b], maps[b].predicted, scene_.fluid.viscosity),
+                    body.is_free(), body.is_free() ? body.external_load() : body.prescribed_motion()};
+    if (!radiation_ && background_ && body.is_free()) {  // otherwise the background is part of the incident flow
+      Vector6 carried;
+      carried << to_eigen(background_->velocity(drive.pose.position)), to_eigen(background_->rotation());
+      drive.value += drive.resistance * carried;
+    }
+    drives.push_back(drive);
+  }
+  return drives;
+}
+
+// Incident flow extrapolated linearly from the two steps before, node by node.
+PointArray Simulation::guess(double dt) const {
+  PointArray z = last_.incident;
+  if (before_.incident.size() == z.size() && last_dt_ > 0)
+    for (std::size_t i = 0; i < z.size(); ++i) z[i] += (dt / last_dt_) * (last_.incident[i] - before_.incident[i]);
+  return z;
+}
+
+Simulation::Trial Simulation::attempt(double dt) {
+  std::vector<BodyMotionMap> maps;
+  for (auto& body : bodies_) maps.push_back(body.predict(dt));
+  fibers_.begin_step();
+  fibers_.prepare(dt, maps);
+
+  SteppedFibers const answers(fibers_);
+  Scattering scattering(answers, drives(maps), radiation_.get(), coarse_.get(),
+                        {.tolerance = scene_.run.gmres_tolerance, .max_iterations = scene_.run.gmres_max_iterations});
+  auto const nodes = scattering.nodes();
+  PointArray imposed;
+  if (background_) {
+    imposed.assign(nodes.size(), Vec3d{});
+    background_->add_velocity(nodes, imposed);
+  }
+  PointArray const start = guess(dt);
+  Trial trial{dt, 0.0, scattering.solve(imposed, start.size() == nodes.size() ? start : PointArray{})};
+
+  std::vector<RigidPose> poses;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    bodies_[b].advance(trial.solution.motions[b]);
+    trial.error = std::max(trial.error, bodies_[b].error_estimate(outer_radius(bodies_[b].spec().shape)));
+    poses.push_back(bodies_[b].trial_pose());
+  }
+  fibers_.advance(ConstPoints(trial.solution.incident).first(fibers_.node_count()), trial.solution.motions, poses);
+  trial.error = std::max(trial.error, fibers_.error_estimate());
+  return trial;
+}
+
+void Simulation::accept(Trial&& trial) {
+  for (auto& body : bodies_) body.accept();
+  fibers_.accept();
+  time_ += trial.dt;
+  last_dt_ = trial.dt;
+  before_ = std::move(last_);
+  last_ = std::move(trial.solution);
+}
+
+StepReport Simulation::step(double until) {
+  Timer const timer;
+  auto const& run = scene_.run;
+  StepReport report;
+  while (true) {
+    bool const is_last = time_ + dt_ * (1 + 1e-9) >= until;
+    double const dt = is_last ? until - time_ : dt_;
+    Trial trial = attempt(dt);
+    bool const converged = trial.solution.gmres.converged;
+    bool const accurate = !run.adaptive || trial.error <= run.step_tolerance;
+    // The local error of a second-order step goes with dt^3.
+    double const ideal = dt * std::clamp(0.9 * std::cbrt(run.step_tolerance / std::max(trial.error, 1e-300)), 0.3, 2.0);
+    if (converged && accurate) {
+      report.dt = dt;
+      report.error = trial.error;
+      report.iterations = trial.solution.gmres.iterations;
+      report.inner_iterations = trial.solution.inner_iterations;
+      report.residual = trial.solution.gmres.residual;
+      if (run.adaptive && !(is_last && ideal < dt_)) dt_ = std::min(std::max(ideal, is_last ? dt_ : 0.0), run.max_time_step);
+      accept(std::move(trial));
+      if (is_last) time_ = until;
+      report.time = time_;
+      report.seconds = timer.seconds();
+      return report;
+    }
+    ++report.rejected;
+    dt_ = converged ? ideal : dt / 2;
+    if (!run.adaptive || dt_ < run.min_time_step)
+      throw NumericalError(fmt::format("t = {:.6g} s: no step down to dt = {:.3g} s is accepted: {}", time_, dt,
+                                       converged ? fmt::format("error {:.3g} um exceeds {:.3g} um", trial.error,
+                                                               run.step_tolerance)
+                                                 : fmt::format("GMRES stopped after {} iterations at residual {:.3g}",
+                                                               trial.solution.gmres.iterations,
+                                                               trial.solution.gmres.residual)));
+  }
+}
+
+}  // namespace asterflow

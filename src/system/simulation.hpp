@@ -1,0 +1,75 @@
+#pragma once
+// A scene in time. One step of dt (second order, adaptive):
+//   1 predict   bodies and fibers at the new time; lengths from growth and chance
+//   2 solve     the coupled scattering problem at the predicted geometry (scattering.hpp)
+//   3 advance   bodies and fibers into a trial state
+//   4 judge     converged? error below the step tolerance? -> accept; else smaller dt, nothing to restore
+
+#include "background/background_flow.hpp"
+#include "body/rigid_body.hpp"
+#include "base/named_array.hpp"
+#include "fiber/fibers.hpp"
+#include "io/scene.hpp"
+#include "system/flows.hpp"
+#include "system/scattering.hpp"
+
+#include <optional>
+
+namespace asterflow {
+
+// What one accepted step took.
+struct StepReport {
+  double time = 0.0;         // s, at its end
+  double dt = 0.0;           // s
+  double error = 0.0;        // um, estimated local error of a position
+  int iterations = 0;        // GMRES on the fine nodes
+  int inner_iterations = 0;  // in the preconditioner, all together
+  double residual = 0.0;     // relative
+  int rejected = 0;          // trials before it
+  double seconds = 0.0;      // wall time, with rejected trials
+};
+
+class Simulation {
+ public:
+  explicit Simulation(Scene scene);
+  ~Simulation();
+
+  Scene const& scene() const { return scene_; }
+  double time() const { return time_; }  // s
+  Fibers const& fibers() const { return fibers_; }
+  std::vector<RigidBody> const& bodies() const { return bodies_; }
+  std::vector<RigidBody>& bodies() { return bodies_; }
+
+  // One accepted step, not beyond `until` (s). Throws NumericalError when no step down to the smallest is accepted;
+  // the state is then that of the last accepted step.
+  StepReport step(double until);
+
+  // The state, for output.
+  std::vector<NamedArray> frame() const;
+  // All that a restart needs to go on exactly, and back.
+  std::vector<NamedArray> restart() const;
+  void restore(double time, std::vector<NamedArray> const& restart);
+
+  std::size_t memory() const;  // bytes of operators and sums
+
+ private:
+  struct Trial;
+
+  void add_fibers();
+  std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps) const;
+  Trial attempt(double dt);
+  PointArray guess(double dt) const;
+  void accept(Trial&& trial);
+
+  Scene scene_;
+  std::vector<RigidBody> bodies_;
+  Fibers fibers_;
+  std::optional<BackgroundFlow> background_;
+  SceneFlows flows_;
+  std::unique_ptr<Radiation> radiation_, coarse_;  // none without interactions
+  double time_ = 0.0, dt_ = 0.0;                   // s; dt: to try next
+  ScatteringSolution last_, before_;               // of the last two accepted steps
+  double last_dt_ = 0.0;
+};
+
+}  // namespace asterflow
