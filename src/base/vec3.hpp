@@ -17,6 +17,7 @@ struct Vec3 {
   KOKKOS_INLINE_FUNCTION Vec3& operator-=(Vec3 b) { x -= b.x; y -= b.y; z -= b.z; return *this; }
   KOKKOS_INLINE_FUNCTION Vec3& operator*=(Real s) { x *= s; y *= s; z *= s; return *this; }
 
+  friend bool operator==(Vec3 const&, Vec3 const&) = default;
   friend KOKKOS_INLINE_FUNCTION Vec3 operator+(Vec3 a, Vec3 b) { return a += b; }
   friend KOKKOS_INLINE_FUNCTION Vec3 operator-(Vec3 a, Vec3 b) { return a -= b; }
   friend KOKKOS_INLINE_FUNCTION Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }

@@ -20,6 +20,8 @@ struct ShapeSpec {
   Vec3d semi_axes{1.0, 1.0, 1.0};                  // um, > 0, of an ellipsoid
   std::vector<std::array<double, 2>> profile = {};  // um, points [x, distance from the x axis] of a surface of
                                                    // revolution, from one pole (distance 0) to the other, x increasing
+
+  bool operator==(ShapeSpec const&) const = default;
 };
 
 // Reads the shape keys of a table that may have others. The key `shape` must be there, and the one that goes with it.

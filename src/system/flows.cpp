@@ -1,8 +1,6 @@
 #include "system/flows.hpp"
 
 #include <algorithm>
-#include <map>
-#include <tuple>
 
 namespace asterflow {
 namespace {
@@ -15,19 +13,23 @@ class FlowLibrary {
   FlowLibrary(double accuracy, Resolution resolution) : accuracy_(accuracy), resolution_(resolution) {}
 
   Radiation::Flow get(ShapeSpec const& spec, int order_in_scene, Side side) {
-    auto const shape = make_shape(spec);
     int const order = surface_order(spec, order_in_scene, accuracy_, resolution_);
-    auto const [entry, is_new] = flows_.try_emplace({shape->key(), order, side == Side::interior});
-    if (is_new)
-      entry->second = std::make_shared<DirichletFlow const>(Surface(shape, order), side,
-                                                            resolution_ == Resolution::fine ? accuracy_ : 1e-3);
-    return entry->second;
+    for (auto const& made : flows_)
+      if (made.shape == spec && made.flow->surface().order() == order && made.flow->side() == side) return made.flow;
+    double const accuracy = resolution_ == Resolution::fine ? accuracy_ : 1e-3;
+    auto flow = std::make_shared<DirichletFlow const>(Surface(make_shape(spec), order), side, accuracy);
+    flows_.push_back({spec, flow});
+    return flow;
   }
 
  private:
   double accuracy_;
   Resolution resolution_;
-  std::map<std::tuple<std::string, int, bool>, Radiation::Flow> flows_;
+  struct Made {
+    ShapeSpec shape;
+    Radiation::Flow flow;
+  };
+  std::vector<Made> flows_;
 };
 
 }  // namespace
