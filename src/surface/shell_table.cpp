@@ -58,7 +58,8 @@ ShellTable::ShellTable(SphereGrid const& grid, int n_shell, int window_width)
 }
 
 TablePoint ShellTable::locate(double psi, Vec3d d) const {
-  double const sine = std::hypot(d.y, d.z), theta = std::atan2(sine, d.x), turns = std::atan2(d.z, d.y) / (2.0 * pi);
+  double const sine = std::hypot(d.y, d.z), theta = std::atan2(sine, d.x);
+  double const turns = sine > 0.0 ? std::atan2(d.z, d.y) / (2.0 * pi) : 0.0;
   return {psi / pi * n_psi_, theta / pi * n_theta_, (turns - std::floor(turns)) * n_phi_,
           sine > 0.0 ? d.y / sine : 1.0, sine > 0.0 ? d.z / sine : 0.0};
 }
