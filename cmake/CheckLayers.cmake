@@ -1,0 +1,55 @@
+# Include directions: a folder includes only itself and what its line below names.
+#   usage: cmake -DSOURCE=<repository> -P CheckLayers.cmake
+# A file may include  "folder/..."  of the folders named, and of a folder named with _spec only its
+# specs ("folder/..._spec.hpp"). Two components (fiber, body, periphery, background) never meet but in
+# interaction and system; only system and command sum pairs (io knows the names of the backends).
+cmake_minimum_required(VERSION 3.22)
+set(base        "")
+set(kernels     base)
+set(linalg      base)
+set(backends    base kernels)
+set(surface     base kernels linalg)
+set(fiber       base kernels linalg surface)
+set(body        base kernels linalg surface)
+set(periphery   base kernels linalg surface)
+set(background  base kernels linalg surface)
+set(interaction base kernels linalg surface fiber body periphery)
+set(io          base surface_spec fiber_spec body_spec periphery_spec background_spec interaction_spec backends)
+set(system      base kernels linalg surface fiber body periphery background interaction io backends)
+set(command     ${system} system)
+
+set(n_violation 0)
+macro(violation text)
+  message("${text}")
+  math(EXPR n_violation "${n_violation} + 1")
+endmacro()
+
+file(GLOB_RECURSE files RELATIVE ${SOURCE}
+  ${SOURCE}/src/*/*.hpp ${SOURCE}/src/*/*.cpp
+  ${SOURCE}/kernels/*.hpp ${SOURCE}/backends/*.hpp ${SOURCE}/backends/*.cpp)
+foreach(file IN LISTS files)
+  string(REGEX REPLACE "^src/" "" path ${file})
+  string(REGEX REPLACE "/.*" "" folder ${path})
+  if(NOT DEFINED ${folder})
+    violation("${file}: folder ${folder} has no line in cmake/CheckLayers.cmake")
+    continue()
+  endif()
+  file(STRINGS ${SOURCE}/${file} includes REGEX "^ *# *include *\"")
+  foreach(line IN LISTS includes)
+    string(REGEX REPLACE ".*\"([^\"]*)\".*" "\\1" header "${line}")
+    string(REGEX REPLACE "/.*" "" target ${header})
+    if(target STREQUAL folder OR target IN_LIST ${folder})
+      continue()
+    endif()
+    if(header MATCHES "_spec\\.hpp$" AND "${target}_spec" IN_LIST ${folder})
+      continue()
+    endif()
+    violation("${file}: \"${header}\" is not below ${folder}")
+  endforeach()
+endforeach()
+
+list(LENGTH files n_file)
+if(n_violation GREATER 0)
+  message(FATAL_ERROR "${n_violation} includes against the layers, ${n_file} files read")
+endif()
+message("includes follow the layers, ${n_file} files read")
