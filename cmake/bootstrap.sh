@@ -39,8 +39,12 @@ update_package_lists() {
 install() {
   update_package_lists
   say "installing: $*"
+  local log
+  log=$(mktemp)
   as_root env DEBIAN_FRONTEND=noninteractive NEEDRESTART_SUSPEND=1 \
-    apt-get -qq -y -o DPkg::Lock::Timeout=600 install --no-install-recommends "$@" </dev/null >&2
+    apt-get -qq -y -o DPkg::Lock::Timeout=600 install --no-install-recommends "$@" </dev/null >"$log" 2>&1 ||
+    { cat "$log" >&2; fail "installation failed"; }
+  rm "$log"
 }
 
 install_missing() {

@@ -1,0 +1,48 @@
+#include "label_check.hpp"
+
+#include <Kokkos_Core.hpp>
+#include <gtest/gtest.h>
+#include <mutex>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace asterflow {
+namespace {
+
+std::mutex guard;
+std::set<std::string> wrong_labels;
+
+void check_label(char const* label) {
+  std::string_view const text = label;
+  if (text.starts_with("asterflow::") || text.starts_with("Kokkos::")) return;
+  std::scoped_lock lock(guard);
+  wrong_labels.emplace(text);
+}
+
+void check_launch(char const* label, std::uint32_t, std::uint64_t*) { check_label(label); }
+
+void check_allocation(Kokkos::Tools::SpaceHandle, char const* label, void const*, std::uint64_t) {
+  check_label(label);
+}
+
+class LabelEnvironment : public testing::Environment {
+  void TearDown() override {
+    for (auto const& label : wrong_labels) {
+      ADD_FAILURE() << "Kokkos label \"" << label << "\" does not start with asterflow::";
+    }
+  }
+};
+
+}  // namespace
+
+void watch_kokkos_labels() {
+  namespace tools = Kokkos::Tools::Experimental;
+  tools::set_begin_parallel_for_callback(check_launch);
+  tools::set_begin_parallel_reduce_callback(check_launch);
+  tools::set_begin_parallel_scan_callback(check_launch);
+  tools::set_allocate_data_callback(check_allocation);
+  testing::AddGlobalTestEnvironment(new LabelEnvironment);  // owned by GoogleTest
+}
+
+}  // namespace asterflow

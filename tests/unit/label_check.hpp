@@ -1,0 +1,10 @@
+#pragma once
+// Watches every Kokkos launch and allocation of the test program: profiles and memory reports are only
+// readable when each label starts with "asterflow::". Kokkos' own helpers ("Kokkos::...") are exempt.
+
+namespace asterflow {
+
+// Starts watching; the violations found are reported as a failure when the test program ends.
+void watch_kokkos_labels();
+
+}  // namespace asterflow
