@@ -4,11 +4,12 @@ if(DEFINED ENV{XDG_CACHE_HOME})
 else()
   set(kokkos_cache $ENV{HOME}/.cache/asterflow/kokkos)
 endif()
-find_package(Kokkos REQUIRED PATHS ${kokkos_cache})  # Kokkos_ROOT first, then the system, then bootstrap's own
+find_package(Kokkos REQUIRED HINTS ${kokkos_cache})  # Kokkos_ROOT first, then what bootstrap built, then the system
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
 find_package(HDF5 REQUIRED COMPONENTS C)
+target_compile_definitions(hdf5::hdf5 INTERFACE H5_USE_110_API)  # the oldest we build with; newer ones offer it too
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)

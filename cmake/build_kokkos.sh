@@ -63,11 +63,13 @@ download_sources() {
   tar -xf "$folder"/trilinos_*.orig.tar.* -C "$folder/trilinos" --strip-components=1 --wildcards '*/packages/kokkos'
 }
 
+# (g++ 13 and later no longer include <cstdint> by the way, as Kokkos 3.4 expects.)
 build() {
   local folder=$1 source=$1/trilinos/packages/kokkos
   say "building Kokkos into $prefix"
   cmake -G Ninja -S "$source" -B "$folder/build" -DCMAKE_INSTALL_PREFIX="$prefix" \
-    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_STANDARD=17 -DCMAKE_POSITION_INDEPENDENT_CODE=ON \
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_STANDARD=17 -DCMAKE_CXX_FLAGS="-include cstdint" \
+    -DCMAKE_POSITION_INDEPENDENT_CODE=ON \
     -DKokkos_ENABLE_OPENMP=ON -DKokkos_ENABLE_SERIAL=ON > "$folder/log" 2>&1 &&
   cmake --build "$folder/build" >> "$folder/log" 2>&1 &&
   cmake --install "$folder/build" >> "$folder/log" 2>&1 || { cat "$folder/log" >&2; fail "Kokkos did not build"; }
