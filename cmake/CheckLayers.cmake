@@ -14,7 +14,7 @@ set(body        base kernels linalg surface)
 set(periphery   base kernels linalg surface)
 set(background  base kernels linalg surface)
 set(interaction base kernels linalg surface fiber body periphery)
-set(io          base surface_spec fiber_spec body_spec periphery_spec background_spec interaction_spec backends)
+set(io          base surface fiber_spec body_spec periphery_spec background_spec interaction_spec backends)
 set(system      base kernels linalg surface fiber body periphery background interaction io backends)
 set(command     ${system} system)
 

@@ -75,7 +75,8 @@ ArrayFile::ArrayFile(std::string path, Mode mode) : path_(std::move(path)) {
     case Mode::create: file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT); break;
   }
   if (file_ >= 0) return;
-  std::string const cause = errno == EACCES || errno == EROFS || errno == ENOENT || errno == ENOSPC || errno == ENOTDIR
+  bool const is_place_missing = mode == Mode::create && (errno == ENOENT || errno == ENOTDIR);
+  std::string const cause = is_place_missing || errno == EACCES || errno == EROFS || errno == ENOSPC
                                 ? std::strerror(errno)
                                 : "not an HDF5 file, or a truncated one, or in use by another program";
   throw SceneError(fmt::format("{}: cannot be {}: {}", path_, mode == Mode::create ? "written" : "opened", cause));
