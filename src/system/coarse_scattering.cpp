@@ -1,5 +1,6 @@
 #include "system/coarse_scattering.hpp"
 
+#include "base/timer.hpp"
 #include "surface/grid_transfer.hpp"
 
 #include <algorithm>
@@ -80,6 +81,7 @@ void CoarseScattering::apply(ConstVector z, Vector result) {
 }
 
 void CoarseScattering::precondition(ConstVector r, Vector result) {
+  Timer const timer;
   std::size_t const n = coarse_.nodes().size();
   PointArray restricted(n), solution(n);
   restrict_nodes(as_points(r), restricted);
@@ -90,6 +92,7 @@ void CoarseScattering::precondition(ConstVector r, Vector result) {
   for (std::size_t i = 0; i < n; ++i) solution[i] -= restricted[i];
   std::copy(r.begin(), r.end(), result.begin());
   add_prolonged(solution, as_points(result));
+  seconds_ += timer.seconds();
 }
 
 }  // namespace asterflow

@@ -18,6 +18,7 @@ class CoarseScattering {
   void precondition(ConstVector r, Vector result);
 
   int iterations() const { return iterations_; }  // of all solves so far
+  double seconds() const { return seconds_; }     // wall time of all solves so far
 
  private:
   void restrict_nodes(ConstPoints fine, Points coarse) const;
@@ -39,6 +40,7 @@ class CoarseScattering {
   std::size_t n_body_, n_fiber_node_;
   PointArray fine_velocity_, fine_force_, coarse_force_;
   int iterations_ = 0;
+  double seconds_ = 0.0;
 };
 
 }  // namespace asterflow

@@ -13,7 +13,9 @@ class FlowLibrary {
   FlowLibrary(double accuracy, Resolution resolution) : accuracy_(accuracy), resolution_(resolution) {}
 
   Radiation::Flow get(ShapeSpec const& spec, int order_in_scene, Side side) {
-    int const order = surface_order(spec, order_in_scene, accuracy_, resolution_);
+    int order = surface_order(spec, order_in_scene, accuracy_);
+    // Fibers start on bodies, so bodies keep their order in the preconditioner; the periphery is farther away.
+    if (resolution_ == Resolution::coarse && side == Side::interior) order = std::min(order, std::max(lowest_order, order / 2));
     for (auto const& made : flows_)
       if (made.shape == spec && made.flow->surface().order() == order && made.flow->side() == side) return made.flow;
     double const accuracy = resolution_ == Resolution::fine ? accuracy_ : 1e-3;
@@ -34,9 +36,8 @@ class FlowLibrary {
 
 }  // namespace
 
-int surface_order(ShapeSpec const& shape, int order_in_scene, double accuracy, Resolution resolution) {
-  int const order = order_in_scene > 0 ? order_in_scene : default_order(*make_shape(shape), accuracy);
-  return resolution == Resolution::fine ? order : std::min(order, std::max(lowest_order, order / 2));
+int surface_order(ShapeSpec const& shape, int order_in_scene, double accuracy) {
+  return order_in_scene > 0 ? order_in_scene : default_order(*make_shape(shape), accuracy);
 }
 
 SceneFlows make_flows(Scene const& scene, Resolution resolution) {

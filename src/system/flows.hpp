@@ -16,7 +16,7 @@ enum class Resolution { fine, coarse };  // coarse: for the preconditioner
 SceneFlows make_flows(Scene const& scene, Resolution resolution);
 
 // Spectral order of a surface: the scene's, else from the accuracy of the run.
-int surface_order(ShapeSpec const& shape, int order_in_scene, double accuracy, Resolution resolution);
+int surface_order(ShapeSpec const& shape, int order_in_scene, double accuracy);
 
 // Resistance of a body alone in unbounded fluid, force and torque about its centre.
 Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double viscosity);

@@ -3,6 +3,7 @@
 #include "backends/evaluator.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/timer.hpp"
 #include "kernels/stokeslet.hpp"
 
 #include <numeric>
@@ -37,6 +38,7 @@ Radiation::~Radiation() = default;
 
 void Radiation::set_geometry(FiberNodes const& fibers, std::vector<RigidPose> const& poses) {
   ASTERFLOW_REQUIRE(poses.size() == bodies_.size());
+  Timer const timer;
   poses_ = poses;
   n_fiber_nodes_ = fibers.positions.size();
   first_fiber_node_ = *fibers.first;
@@ -66,6 +68,7 @@ void Radiation::set_geometry(FiberNodes const& fibers, std::vector<RigidPose> co
     stokeslets_->set_points(fibers.positions, all);
     strengths_.resize(n_fiber_nodes_);
   }
+  seconds_.geometry += timer.seconds();
 }
 
 Vector6 Radiation::load_of_incident(std::size_t body, ConstPoints incident) const {
@@ -125,9 +128,13 @@ void Radiation::exchange(ConstPoints force_density, std::vector<Vector6> const& 
                          Points received) {
   ASTERFLOW_REQUIRE(incident.size() == nodes_.size() && received.size() == nodes_.size());
   std::fill(received.begin(), received.end(), Vec3d{});
+  Timer timer;
   if (n_fiber_nodes_ > 0) add_fibers(force_density, received);
+  seconds_.sums += timer.seconds();
+  timer.restart();
   add_bodies(motions, incident, received);
   add_periphery(incident, received);
+  seconds_.surfaces += timer.seconds();
 }
 
 void Radiation::add_velocity(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,

@@ -68,6 +68,12 @@ class Radiation {
 
   std::size_t memory() const;
 
+  // Wall time since it was made, s.
+  struct Seconds {
+    double geometry = 0.0, sums = 0.0, surfaces = 0.0;
+  };
+  Seconds const& seconds() const { return seconds_; }
+
  private:
   PointArray wall_velocity(std::size_t body, Vector6 const& motion, ConstPoints incident) const;
   PointArray periphery_wall_velocity(ConstPoints incident) const;
@@ -89,6 +95,7 @@ class Radiation {
   std::vector<DirichletFlow::Targets> body_targets_;  // per body: all nodes but its own
   DirichletFlow::Targets periphery_targets_;          // all nodes but its own
   PointArray strengths_;                              // [n_fiber_node] pN over viscosity
+  Seconds seconds_;
 };
 
 }  // namespace asterflow

@@ -72,7 +72,10 @@ ScatteringSolution Scattering::solve(ConstPoints background, ConstPoints guess) 
     if (coarse_) preconditioner = [&](ConstVector r, Vector result) { coarse_->precondition(r, result); };
     solution.gmres = solve_gmres(a, preconditioner, as_vector(b), as_vector(solution.incident),
                                  {.tolerance = options_.tolerance, .max_iterations = options_.max_iterations});
-    if (coarse_) solution.inner_iterations = coarse_->iterations();
+    if (coarse_) {
+      solution.inner_iterations = coarse_->iterations();
+      solution.coarse_seconds = coarse_->seconds();
+    }
   } else {
     std::copy(background.begin(), background.end(), solution.incident.begin());
     solution.gmres.converged = true;

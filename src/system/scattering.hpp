@@ -45,7 +45,7 @@ struct BodyDrive {
 struct ScatteringOptions {
   double tolerance = 1e-6;  // relative residual of z
   int max_iterations = 200;
-  int coarsening = 4;             // a fiber's nodes over its nodes in the preconditioner; 0: no preconditioner
+  int coarsening = 2;             // a fiber's nodes over its nodes in the preconditioner; 0: no preconditioner
   double inner_tolerance = 1e-2;  // of the coarse solve
   int inner_max_iterations = 40;
 };
@@ -55,7 +55,8 @@ struct ScatteringSolution {
   PointArray force_density;      // pN/um, on the fluid, at the fibers' nodes
   std::vector<Vector6> motions;  // q
   GmresResult gmres;
-  int inner_iterations = 0;  // of all coarse solves together
+  int inner_iterations = 0;     // of all coarse solves together
+  double coarse_seconds = 0.0;  // wall time of the preconditioner
 };
 
 class Scattering {

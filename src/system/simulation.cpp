@@ -42,18 +42,20 @@ struct Simulation::Trial {
 };
 
 Simulation::Simulation(Scene scene)
-    : scene_(std::move(scene)), fibers_(scene_.fluid.viscosity), flows_(make_flows(scene_, Resolution::fine)) {
+    : scene_(std::move(scene)), fibers_(scene_.fluid.viscosity), surroundings_(scene_),
+      flows_(make_flows(scene_, Resolution::fine)) {
   auto const& run = scene_.run;
   for (auto const& body : scene_.bodies) bodies_.emplace_back(body);
   if (scene_.background) background_.emplace(*scene_.background);
-  add_fibers();
+  if (scene_.dynamic_instability) growth_.emplace(*scene_.dynamic_instability, run.seed);
+  add_scene_fibers(scene_, fibers_, growth_);
   if (run.interactions != Interactions::local) {
     RadiationOptions options{scene_.fluid.viscosity, run.evaluator, run.evaluator_accuracy};
     radiation_ = std::make_unique<Radiation>(flows_.bodies, flows_.periphery, options);
     if (fibers_.count() > 0) {
       auto const flows = make_flows(scene_, Resolution::coarse);
       coarse_ = std::make_unique<Radiation>(flows.bodies, flows.periphery,
-                                            RadiationOptions{scene_.fluid.viscosity, "direct", 1e-3});
+                                            RadiationOptions{scene_.fluid.viscosity, run.evaluator, 1e-3});
     }
   }
   dt_ = run.time_step;
@@ -61,7 +63,19 @@ Simulation::Simulation(Scene scene)
 
 Simulation::~Simulation() = default;
 
-void Simulation::add_fibers() {}
+// Lengths and renucleation at the end of the step.
+void Simulation::plan_fibers(double dt) {
+  fibers_.begin_step();
+  if (!growth_) return;
+  std::vector<RigidPose> poses;
+  std::vector<Vector6> motions;
+  for (auto const& body : bodies_) {
+    poses.push_back(body.pose());
+    motions.push_back(body.motion());
+  }
+  growth_->advance(dt, surroundings_.at_tips(fibers_, *growth_, poses, motions));
+  growth_->plan(fibers_);
+}
 
 std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps) const {
   std::vector<BodyDrive> drives;
@@ -87,16 +101,19 @@ PointArray Simulation::guess(double dt) const {
   return z;
 }
 
-Simulation::Trial Simulation::attempt(double dt) {
+Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
+  Timer const timer;
+  Radiation::Seconds const before = radiation_ ? radiation_->seconds() : Radiation::Seconds{};
   std::vector<BodyMotionMap> maps;
   for (auto& body : bodies_) maps.push_back(body.predict(dt));
-  fibers_.begin_step();
+  plan_fibers(dt);
   fibers_.prepare(dt, maps);
 
   SteppedFibers const answers(fibers_);
   Scattering scattering(answers, drives(maps), radiation_.get(), coarse_.get(),
                         {.tolerance = scene_.run.gmres_tolerance, .max_iterations = scene_.run.gmres_max_iterations});
   auto const nodes = scattering.nodes();
+  report.prepare_seconds += timer.seconds();
   PointArray imposed;
   if (background_) {
     imposed.assign(nodes.size(), Vec3d{});
@@ -104,6 +121,12 @@ Simulation::Trial Simulation::attempt(double dt) {
   }
   PointArray const start = guess(dt);
   Trial trial{dt, 0.0, scattering.solve(imposed, start.size() == nodes.size() ? start : PointArray{})};
+
+  if (radiation_) {
+    report.sum_seconds += radiation_->seconds().sums - before.sums;
+    report.surface_seconds += radiation_->seconds().surfaces - before.surfaces;
+    report.coarse_seconds += trial.solution.coarse_seconds;
+  }
 
   std::vector<RigidPose> poses;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -119,6 +142,7 @@ Simulation::Trial Simulation::attempt(double dt) {
 void Simulation::accept(Trial&& trial) {
   for (auto& body : bodies_) body.accept();
   fibers_.accept();
+  if (growth_) growth_->accept();
   time_ += trial.dt;
   last_dt_ = trial.dt;
   before_ = std::move(last_);
@@ -132,7 +156,7 @@ StepReport Simulation::step(double until) {
   while (true) {
     bool const is_last = time_ + dt_ * (1 + 1e-9) >= until;
     double const dt = is_last ? until - time_ : dt_;
-    Trial trial = attempt(dt);
+    Trial trial = attempt(dt, report);
     bool const converged = trial.solution.gmres.converged;
     bool const accurate = !run.adaptive || trial.error <= run.step_tolerance;
     // The local error of a second-order step goes with dt^3.

@@ -8,9 +8,11 @@
 #include "background/background_flow.hpp"
 #include "body/rigid_body.hpp"
 #include "base/named_array.hpp"
+#include "fiber/dynamic_instability.hpp"
 #include "fiber/fibers.hpp"
 #include "io/scene.hpp"
 #include "system/flows.hpp"
+#include "system/population.hpp"
 #include "system/scattering.hpp"
 
 #include <optional>
@@ -26,7 +28,8 @@ struct StepReport {
   int inner_iterations = 0;  // in the preconditioner, all together
   double residual = 0.0;     // relative
   int rejected = 0;          // trials before it
-  double seconds = 0.0;      // wall time, with rejected trials
+  double seconds = 0.0;      // wall time, with rejected trials, of which
+  double prepare_seconds = 0.0, sum_seconds = 0.0, surface_seconds = 0.0, coarse_seconds = 0.0;
 };
 
 class Simulation {
@@ -55,15 +58,19 @@ class Simulation {
  private:
   struct Trial;
 
-  void add_fibers();
+  std::vector<NamedArray> body_frame() const;
+  std::vector<NamedArray> fiber_frame() const;
+  void plan_fibers(double dt);
   std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps) const;
-  Trial attempt(double dt);
+  Trial attempt(double dt, StepReport& report);
   PointArray guess(double dt) const;
   void accept(Trial&& trial);
 
   Scene scene_;
   std::vector<RigidBody> bodies_;
   Fibers fibers_;
+  std::optional<DynamicInstability> growth_;
+  GrowthSurroundings surroundings_;
   std::optional<BackgroundFlow> background_;
   SceneFlows flows_;
   std::unique_ptr<Radiation> radiation_, coarse_;  // none without interactions

@@ -1,0 +1,152 @@
+// What a simulation stores: states for output (docs/trajectory.md) and all that an exact restart needs.
+
+#include "base/error.hpp"
+#include "fiber/fiber_basis.hpp"
+#include "system/simulation.hpp"
+
+namespace asterflow {
+namespace {
+
+// Tension T = F . t - E |X_ss|^2 at the nodes, pN, with F(s) = F_tip - int_s^L (f - f_applied) ds'.
+void append_tension(Fibers const& fibers, std::size_t i, ConstPoints force_density, std::vector<double>& tension) {
+  auto const& shape = fibers.shape(i);
+  auto const& properties = fibers.properties(i);
+  FiberBasis const& basis = fiber_basis(properties.n_node);
+  Eigen::MatrixX3d tangents(basis.n_tangent, 3), elastic(basis.n_node, 3);
+  for (int k = 0; k < basis.n_tangent; ++k) tangents.row(k) = to_eigen(shape.tangents[k]);
+  for (int k = 0; k < basis.n_node; ++k)
+    elastic.row(k) = to_eigen(force_density[fibers.first_node(i) + k] - properties.load.external);
+  Eigen::MatrixX3d const t = basis.tangent * tangents, curvature = basis.derivative * tangents / shape.length;
+  Eigen::MatrixX3d const beyond = shape.length * (basis.remainder * elastic);
+  for (int k = 0; k < basis.n_node; ++k) {
+    Eigen::Vector3d const force = to_eigen(properties.tip.force) - beyond.row(k).transpose();
+    tension.push_back(force.dot(t.row(k)) - properties.bending_rigidity * curvature.row(k).squaredNorm());
+  }
+}
+
+NamedArray numbers(std::string name, std::vector<double> values) {
+  return NamedArray::of(std::move(name), std::move(values), "");
+}
+
+std::vector<double> const& find(std::vector<NamedArray> const& arrays, std::string const& name) {
+  for (auto const& array : arrays)
+    if (array.name == name) return std::get<std::vector<double>>(array.values);
+  throw SceneError("the stored state lacks " + name + ": it was not written by this program, or by another version");
+}
+
+PointArray find_points(std::vector<NamedArray> const& arrays, std::string const& name) {
+  auto const points = as_points(ConstVector(find(arrays, name)));
+  return {points.begin(), points.end()};
+}
+
+}  // namespace
+
+std::vector<NamedArray> Simulation::body_frame() const {
+  PointArray positions, velocities, angular;
+  std::vector<double> orientations;
+  for (auto const& body : bodies_) {
+    positions.push_back(body.pose().position);
+    auto const& q = body.orientation();
+    orientations.insert(orientations.end(), {q.w(), q.x(), q.y(), q.z()});
+    velocities.push_back(to_vec3(body.motion().head<3>()));
+    angular.push_back(to_vec3(body.motion().tail<3>()));
+  }
+  return {NamedArray::of("body/position", positions, "um"),
+          {"body/orientation", {bodies_.size(), 4}, orientations, ""},
+          NamedArray::of("body/velocity", velocities, "um/s"),
+          NamedArray::of("body/angular_velocity", angular, "rad/s")};
+}
+
+std::vector<NamedArray> Simulation::fiber_frame() const {
+  std::vector<std::int64_t> first{0}, holders;
+  std::vector<double> lengths, weights, tension;
+  PointArray minus_ends, plus_ends, positions;
+  PointArray forces = last_.force_density;
+  for (std::size_t i = 0; i < fibers_.count(); ++i) {
+    auto const& shape = fibers_.shape(i);
+    FiberBasis const& basis = fiber_basis(fibers_.properties(i).n_node);
+    std::vector<double> s;
+    for (int k = 0; k < basis.n_node; ++k) {
+      s.push_back(basis.gauss.nodes[k] * shape.length);
+      weights.push_back(basis.gauss.weights[k] * shape.length);
+    }
+    std::size_t const n = positions.size();
+    positions.resize(n + s.size());
+    sample(shape, s, Points(positions).subspan(n), {});
+    first.push_back(static_cast<std::int64_t>(positions.size()));
+    lengths.push_back(shape.length);
+    minus_ends.push_back(shape.minus_end);
+    plus_ends.push_back(plus_end(shape));
+    holders.push_back(fibers_.site(i).is_attached() ? fibers_.site(i).body : -1);
+  }
+  forces.resize(positions.size());  // no forces before the first step
+  for (std::size_t i = 0; i < fibers_.count(); ++i)
+    if (time_ > 0) append_tension(fibers_, i, forces, tension);
+  tension.resize(positions.size());
+  return {NamedArray::of("fiber/first", first),
+          NamedArray::of("fiber/length", lengths, "um"),
+          NamedArray::of("fiber/body", holders),
+          NamedArray::of("fiber/minus_end", minus_ends, "um"),
+          NamedArray::of("fiber/plus_end", plus_ends, "um"),
+          NamedArray::of("fiber/position", positions, "um"),
+          NamedArray::of("fiber/weight", weights, "um"),
+          NamedArray::of("fiber/tension", tension, "pN"),
+          NamedArray::of("fiber/force_density", forces, "pN/um")};
+}
+
+std::vector<NamedArray> Simulation::frame() const {
+  std::vector<NamedArray> arrays;
+  auto const append = [&](std::vector<NamedArray> more) {
+    for (auto& array : more) arrays.push_back(std::move(array));
+  };
+  if (!bodies_.empty()) append(body_frame());
+  if (fibers_.count() > 0) append(fiber_frame());
+  if (radiation_) {
+    std::size_t const n_fiber_node = std::min(fibers_.node_count(), last_.incident.size());
+    PointArray incident(last_.incident.begin() + static_cast<long>(n_fiber_node), last_.incident.end());
+    append({NamedArray::of("flow/incident", incident, "um/s")});
+  }
+  return arrays;
+}
+
+std::vector<NamedArray> Simulation::restart() const {
+  std::vector<NamedArray> arrays{numbers("step/next", {dt_, last_dt_})};
+  if (!bodies_.empty()) {
+    std::vector<double> states;
+    for (auto const& body : bodies_) {
+      auto const state = body.state();
+      states.insert(states.end(), state.begin(), state.end());
+    }
+    arrays.push_back({"body/state", {bodies_.size(), RigidBody::n_state}, states, ""});
+  }
+  auto const append = [&](std::vector<NamedArray> more) {
+    for (auto& array : more) arrays.push_back(std::move(array));
+  };
+  if (fibers_.count() > 0) append(fibers_.state());
+  if (growth_) append(growth_->state());
+  append({NamedArray::of("flow/incident", last_.incident, "um/s"),
+          NamedArray::of("flow/incident_before", before_.incident, "um/s"),
+          NamedArray::of("flow/force_density", last_.force_density, "pN/um")});
+  return arrays;
+}
+
+void Simulation::restore(double time, std::vector<NamedArray> const& arrays) {
+  time_ = time;
+  auto const& steps = find(arrays, "step/next");
+  dt_ = steps.at(0);
+  last_dt_ = steps.at(1);
+  if (!bodies_.empty()) {
+    auto const& states = find(arrays, "body/state");
+    if (states.size() != bodies_.size() * RigidBody::n_state) throw SceneError("the stored state has other bodies");
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      bodies_[b].set_state(
+          Eigen::Map<Eigen::Matrix<double, RigidBody::n_state, 1> const>(&states[b * RigidBody::n_state]));
+  }
+  if (fibers_.count() > 0) fibers_.restore(arrays);
+  if (growth_) growth_->restore(arrays);
+  last_.incident = find_points(arrays, "flow/incident");
+  before_.incident = find_points(arrays, "flow/incident_before");
+  last_.force_density = find_points(arrays, "flow/force_density");
+}
+
+}  // namespace asterflow
