@@ -7,5 +7,13 @@
 namespace asterflow {
 
 std::unique_ptr<Evaluator> make_reference(std::string_view kernel, double accuracy);
+std::unique_ptr<Evaluator> make_direct(std::string_view kernel, double accuracy);  // the best of those below
+std::unique_ptr<Evaluator> make_direct_portable(std::string_view kernel, double accuracy);
+std::unique_ptr<Evaluator> make_direct_avx2(std::string_view kernel, double accuracy);
+std::unique_ptr<Evaluator> make_direct_avx512(std::string_view kernel, double accuracy);
+
+// Whether this build and this machine can run the backend.
+bool has_direct_avx2();
+bool has_direct_avx512();
 
 }  // namespace asterflow

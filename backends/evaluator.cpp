@@ -13,17 +13,26 @@ namespace {
 struct Backend {
   std::string_view name;
   std::unique_ptr<Evaluator> (*make)(std::string_view kernel, double accuracy);
+  bool (*is_available)();
 };
 
+bool always() { return true; }
+
+// "auto" takes the first.
 constexpr std::array backends{
-    Backend{"reference", make_reference},
+    Backend{"direct", make_direct, always},
+    Backend{"direct-avx512", make_direct_avx512, has_direct_avx512},
+    Backend{"direct-avx2", make_direct_avx2, has_direct_avx2},
+    Backend{"direct-portable", make_direct_portable, always},
+    Backend{"reference", make_reference, always},
 };
 
 }  // namespace
 
 std::vector<std::string> backend_names() {
   std::vector<std::string> names{"auto"};
-  for (auto const& backend : backends) names.emplace_back(backend.name);
+  for (auto const& backend : backends)
+    if (backend.is_available()) names.emplace_back(backend.name);
   return names;
 }
 
@@ -32,11 +41,11 @@ std::unique_ptr<Evaluator> make_evaluator(std::string_view kernel, EvaluatorOpti
     throw SceneError("kernel: unknown \"" + std::string(kernel) + "\" (known: " + kernel_names() + ")");
   if (!(options.accuracy >= 1e-15 && options.accuracy <= 1e-1))
     throw SceneError("accuracy: " + std::to_string(options.accuracy) + " is outside 1e-15 ... 1e-1");
-  std::string known = "auto";
-  for (auto const& backend : backends) {
-    if (options.backend == backend.name || options.backend == "auto") return backend.make(kernel, options.accuracy);
-    known += ", " + std::string(backend.name);
-  }
+  for (auto const& backend : backends)
+    if ((options.backend == backend.name || options.backend == "auto") && backend.is_available())
+      return backend.make(kernel, options.accuracy);
+  std::string known;
+  for (auto const& name : backend_names()) known += (known.empty() ? "" : ", ") + name;
   throw SceneError("backend: unknown \"" + options.backend + "\" (known: " + known + ")");
 }
 

@@ -1,6 +1,7 @@
 // The oracle: two plain loops in double precision, one target at a time.
 
 #include "backends/backend.hpp"
+#include "backends/point_cloud.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "kernels/list.hpp"
@@ -13,6 +14,7 @@ class Reference final : public Evaluator {
  public:
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
     ASTERFLOW_REQUIRE(normals.size() == (Kernel::has_normal ? sources.size() : 0));
+    bounding_box(sources, targets);  // refuses what is not a number
     sources_.assign(sources.begin(), sources.end());
     targets_.assign(targets.begin(), targets.end());
     normals_.assign(normals.begin(), normals.end());

@@ -13,12 +13,18 @@ struct Stresslet {
   static constexpr int flops = 30;
   static constexpr bool has_normal = true;
   static constexpr double prefactor = -0.23873241463784303;  // -3 / (4 pi)
+  static constexpr int decay = 2;
+  static constexpr int parity = -1;
+
+  template <class Real>
+  KOKKOS_INLINE_FUNCTION static Vec3<Real> shape(Vec3<Real> r, Real s, Vec3<Real> q, Vec3<Real> n) {
+    Real const s2 = s * s;
+    return (dot(r, q) * dot(r, n) * (s2 * s2 * s)) * r;
+  }
 
   template <class Real>
   KOKKOS_INLINE_FUNCTION static Vec3<Real> velocity(Vec3<Real> r, Vec3<Real> q, Vec3<Real> n) {
-    Real const s = inverse_distance(r);
-    Real const s2 = s * s;
-    return (Real(prefactor) * dot(r, q) * dot(r, n) * s2 * s2 * s) * r;
+    return Real(prefactor) * shape(r, inverse_distance(r), q, n);
   }
 };
 

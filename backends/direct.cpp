@@ -1,0 +1,17 @@
+// Direct sums with the best means this build and this machine have.
+
+#include "backends/backend.hpp"
+
+#include <Kokkos_Core.hpp>
+
+namespace asterflow {
+
+std::unique_ptr<Evaluator> make_direct(std::string_view kernel, double accuracy) {
+  constexpr bool is_host =
+      Kokkos::SpaceAccessibility<Kokkos::HostSpace, Kokkos::DefaultExecutionSpace::memory_space>::accessible;
+  if (is_host && has_direct_avx512()) return make_direct_avx512(kernel, accuracy);
+  if (is_host && has_direct_avx2()) return make_direct_avx2(kernel, accuracy);
+  return make_direct_portable(kernel, accuracy);
+}
+
+}  // namespace asterflow

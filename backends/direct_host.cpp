@@ -1,0 +1,123 @@
+// Direct sums on host threads with the explicit-SIMD pair loops of one instruction set.
+
+#include "backends/backend.hpp"
+#include "backends/packed_sum.hpp"
+#include "base/error.hpp"
+#include "kernels/list.hpp"
+
+#include <optional>
+
+namespace asterflow {
+namespace {
+
+enum class InstructionSet { avx2, avx512 };
+
+// A relative error of 1 / |r| grows at most fivefold in a kernel (stresslet: fifth power).
+constexpr double error_growth = 5.0;
+
+template <class Real>
+PairSums<Real> find_loops(InstructionSet instructions, int i_kernel, int steps) {
+#ifdef ASTERFLOW_HAS_X86_SIMD
+  return instructions == InstructionSet::avx512 ? avx512_pair_sums<Real>(i_kernel, steps)
+                                                : avx2_pair_sums<Real>(i_kernel, steps);
+#else
+  (void)instructions, (void)i_kernel, (void)steps;
+  return {};
+#endif
+}
+
+// The loops with the fewest correction steps that keep the error of one pair, relative to that pair's
+// velocity, within `accuracy`; without functions when this arithmetic cannot.
+template <class Real>
+PairSums<Real> loops_for(InstructionSet instructions, int i_kernel, double accuracy) {
+  double const rounding = sizeof(Real) == 4 ? float_rounding : 0.0;
+  PairSums<Real> loops;
+  for (int steps = 0;; ++steps) {
+    PairSums<Real> const candidate = find_loops<Real>(instructions, i_kernel, steps);
+    if (!candidate.add_one_way) return loops;
+    if (error_growth * candidate.error + rounding <= accuracy) return candidate;
+  }
+}
+
+// Float arithmetic where the accuracy asked for and the points allow it, else double.
+class DirectHost final : public Evaluator {
+ public:
+  DirectHost(InstructionSet instructions, KernelTraits const& kernel, double accuracy)
+      : instructions_(instructions), kernel_(kernel), in_double_(kernel, loops_for<double>(instructions, kernel.index, accuracy)) {
+    auto const loops = loops_for<float>(instructions, kernel.index, accuracy);
+    if (loops.add_one_way) in_float_.emplace(kernel, loops);
+  }
+
+  void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
+    ASTERFLOW_REQUIRE(normals.size() == (kernel_.has_normal ? sources.size() : 0));
+    Box const box = bounding_box(sources, targets);
+    n_source_ = sources.size();
+    n_target_ = targets.size();
+    uses_float_ = in_float_ && !has_close_pair(sources, targets, closest_in_float * box.extent());
+    if (uses_float_)
+      in_float_->set_points(sources, targets, normals, frame_of<float>(box));
+    else
+      in_double_.set_points(sources, targets, normals, frame_of<double>(box));
+  }
+
+  void add_velocity(ConstPoints strengths, Points velocity) override {
+    ASTERFLOW_REQUIRE(strengths.size() == n_source_ && velocity.size() == n_target_);
+    if (uses_float_)
+      in_float_->add_velocity(strengths, velocity);
+    else
+      in_double_.add_velocity(strengths, velocity);
+  }
+
+  std::string_view backend() const override {
+    return instructions_ == InstructionSet::avx512 ? "direct-avx512" : "direct-avx2";
+  }
+
+  std::size_t memory() const override { return in_double_.memory() + (in_float_ ? in_float_->memory() : 0); }
+
+ private:
+  InstructionSet instructions_;
+  KernelTraits kernel_;
+  PackedSum<double> in_double_;
+  std::optional<PackedSum<float>> in_float_;
+  bool uses_float_ = false;
+  std::size_t n_source_ = 0, n_target_ = 0;
+};
+
+KernelTraits traits_of(std::string_view name) {
+  KernelTraits traits;
+  int i = 0;
+  std::apply(
+      [&](auto... k) {
+        ((k.name == name ? void(traits = {i++, k.prefactor, k.decay, k.has_normal}) : void(i++)), ...);
+      },
+      AllKernels{});
+  return traits;
+}
+
+}  // namespace
+
+bool has_direct_avx2() {
+#ifdef ASTERFLOW_HAS_X86_SIMD
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+  return false;
+#endif
+}
+
+bool has_direct_avx512() {
+#ifdef ASTERFLOW_HAS_X86_SIMD
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#else
+  return false;
+#endif
+}
+
+std::unique_ptr<Evaluator> make_direct_avx2(std::string_view kernel, double accuracy) {
+  return std::make_unique<DirectHost>(InstructionSet::avx2, traits_of(kernel), accuracy);
+}
+
+std::unique_ptr<Evaluator> make_direct_avx512(std::string_view kernel, double accuracy) {
+  return std::make_unique<DirectHost>(InstructionSet::avx512, traits_of(kernel), accuracy);
+}
+
+}  // namespace asterflow

@@ -1,0 +1,167 @@
+#include "backends/packed_sum.hpp"
+
+#include "base/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace asterflow {
+namespace {
+
+constexpr long smallest_self_sum = 512;  // below, sharing the work both ways costs more than it saves
+constexpr long groups_per_task = 8;      // of targets, in the sum one way
+
+// Where the sources appear among the targets as one run; targets.size() when they do not. A few places that
+// begin like the sources are tried.
+long find_run(ConstPoints sources, ConstPoints targets) {
+  auto const same = [](Vec3d const& a, Vec3d const& b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
+  int trials = 8;
+  for (std::size_t i = 0; i + sources.size() <= targets.size(); ++i) {
+    if (!same(sources.front(), targets[i])) continue;
+    if (std::equal(sources.begin(), sources.end(), targets.begin() + static_cast<long>(i), same)) return static_cast<long>(i);
+    if (--trials == 0) break;
+  }
+  return static_cast<long>(targets.size());
+}
+
+template <class View>
+void grow(View& numbers, long n, char const* label) {
+  if (static_cast<long>(numbers.extent(0)) < n)
+    numbers = View(Kokkos::view_alloc(std::string("asterflow::PackedSum::") + label, Kokkos::WithoutInitializing), n);
+}
+
+}  // namespace
+
+template <class Real>
+void PackedSum<Real>::set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals, Frame const& frame) {
+  long const lanes = loops_.lanes, width = n_numbers();
+  frame_ = frame;
+  n_source_ = static_cast<long>(sources.size());
+  n_target_ = static_cast<long>(targets.size());
+  first_self_ = n_source_ < smallest_self_sum ? n_target_ : find_run(sources, targets);
+  n_self_ = first_self_ < n_target_ ? n_source_ : 0;
+  set_blocks();
+
+  long const n_row_group = (n_source_ + lanes - 1) / lanes, n_other = n_target_ - n_self_;
+  long const n_group = (n_other + lanes - 1) / lanes;
+  grow(records_, n_row_group * lanes * width, "records");
+  grow(rows_, n_self_ > 0 ? n_row_group * lanes * width : 0, "rows");
+  grow(row_velocity_, n_self_ > 0 ? n_row_group * lanes * 3 : 0, "row_velocity");
+  grow(targets_, n_group * lanes * n_coordinates<Real>, "targets");
+  grow(target_velocity_, n_group * lanes * 3, "target_velocity");
+
+  // Padding repeats the last point; as a source it has strength 0.
+  for (long j = 0; j < n_row_group * lanes; ++j) {
+    long const i = std::min(j, n_source_ - 1);
+    put_coordinates(&records_(j * width), 1, sources[i], frame_);
+    if (kernel_.has_normal) put(&records_(j * width + n_coordinates<Real> + 3), 1, normals[i]);
+    if (n_self_ == 0) continue;
+    Real* const row = &rows_((j / lanes) * lanes * width + j % lanes);
+    put_coordinates(row, lanes, sources[i], frame_);
+    if (kernel_.has_normal) put(row + (n_coordinates<Real> + 3) * lanes, lanes, normals[i]);
+  }
+  for (long j = 0; j < n_group * lanes; ++j) {
+    long const i = std::min(j, n_other - 1);
+    put_coordinates(&targets_((j / lanes) * lanes * n_coordinates<Real> + j % lanes), lanes,
+                    targets[i < first_self_ ? i : i + n_self_], frame_);
+  }
+}
+
+// About sqrt(n) / 2 blocks, and a number of pairs per round that threads can share evenly.
+template <class Real>
+void PackedSum<Real>::set_blocks() {
+  blocks_.clear();
+  if (n_self_ == 0) return;
+  long const n_group = (n_self_ + loops_.lanes - 1) / loops_.lanes;
+  long const n_block = 8 * std::max(1L, std::lround(std::sqrt(static_cast<double>(n_self_)) / 16.0));
+  for (long b = 0; b < n_block; ++b) {
+    long const first = b * n_group / n_block;
+    blocks_.push_back({first, (b + 1) * n_group / n_block - first});
+  }
+}
+
+template <class Real>
+void PackedSum<Real>::pack_strengths(ConstPoints strengths) {
+  long const lanes = loops_.lanes, width = n_numbers();
+  strength_unit_ = strength_unit(strengths);
+  double const scale = 1.0 / strength_unit_;
+  long const n_padded = (n_source_ + lanes - 1) / lanes * lanes;
+  for (long j = 0; j < n_padded; ++j) {
+    Vec3d const q = j < n_source_ ? scale * strengths[j] : Vec3d{};
+    put(&records_(j * width + n_coordinates<Real>), 1, q);
+    if (n_self_ > 0) put(&rows_((j / lanes) * lanes * width + n_coordinates<Real> * lanes + j % lanes), lanes, q);
+  }
+}
+
+// Other targets from all sources, and every block from itself.
+template <class Real>
+void PackedSum<Real>::sum_one_way() {
+  long const lanes = loops_.lanes, width = n_numbers(), stride = n_coordinates<Real> * lanes;
+  long const n_group = (n_target_ - n_self_ + lanes - 1) / lanes;
+  long const n_task = (n_group + groups_per_task - 1) / groups_per_task;
+  parallel_for("PackedSum::sum_one_way", n_task + static_cast<long>(blocks_.size()), [&](long task) {
+    if (task < n_task) {
+      long const first = task * groups_per_task, n = std::min(groups_per_task, n_group - first);
+      double* const velocity = &target_velocity_(first * 3 * lanes);
+      std::fill_n(velocity, n * 3 * lanes, 0.0);
+      loops_.add_one_way(&targets_(first * stride), n, stride, records_.data(), n_source_, velocity);
+    } else {
+      Block const& block = blocks_[task - n_task];
+      double* const velocity = &row_velocity_(block.first_group * 3 * lanes);
+      std::fill_n(velocity, block.n_group * 3 * lanes, 0.0);
+      loops_.add_one_way(&rows_(block.first_group * lanes * width), block.n_group, width * lanes,
+                         &records_(block.first_group * lanes * width), block.n_group * lanes, velocity);
+    }
+  });
+}
+
+template <class Real>
+void PackedSum<Real>::sum_block_pair(Block const& rows, Block const& columns) {
+  long const lanes = loops_.lanes, width = n_numbers();
+  long const at_once = PairSums<Real>::max_column;
+  for (long j = 0; j < columns.n_group * lanes; j += at_once) {
+    long const column = columns.first_group * lanes + j;
+    loops_.add_both_ways(&rows_(rows.first_group * lanes * width), rows.n_group, &records_(column * width),
+                         std::min(at_once, columns.n_group * lanes - j), &row_velocity_(rows.first_group * 3 * lanes),
+                         &row_velocity_(column * 3));
+  }
+}
+
+// Round-robin tournament: block n - 1 stays, the others rotate.
+template <class Real>
+void PackedSum<Real>::sum_both_ways() {
+  long const n = static_cast<long>(blocks_.size());
+  for (long round = 0; round < n - 1; ++round)
+    parallel_for("PackedSum::sum_both_ways", n / 2, [&](long k) {
+      long const a = (round + k) % (n - 1);
+      long const b = k == 0 ? n - 1 : (round - k + n - 1) % (n - 1);
+      sum_block_pair(blocks_[a], blocks_[b]);
+    });
+}
+
+template <class Real>
+void PackedSum<Real>::add_velocity(ConstPoints strengths, Points velocity) {
+  if (n_source_ == 0 || n_target_ == 0) return;
+  pack_strengths(strengths);
+  sum_one_way();
+  sum_both_ways();
+  double const factor = kernel_.prefactor * strength_unit_ * std::pow(frame_.scale, kernel_.decay);
+  long const lanes = loops_.lanes;
+  for (long i = 0; i < n_target_; ++i) {
+    bool const is_self = i >= first_self_ && i < first_self_ + n_self_;
+    long const j = is_self ? i - first_self_ : (i < first_self_ ? i : i - n_self_);
+    double const* const u = (is_self ? row_velocity_ : target_velocity_).data() + (j / lanes) * 3 * lanes + j % lanes;
+    velocity[i] += factor * Vec3d{u[0], u[lanes], u[2 * lanes]};
+  }
+}
+
+template <class Real>
+std::size_t PackedSum<Real>::memory() const {
+  return sizeof(Real) * (records_.size() + rows_.size() + targets_.size()) +
+         sizeof(double) * (row_velocity_.size() + target_velocity_.size()) + sizeof(Block) * blocks_.size();
+}
+
+template class PackedSum<float>;
+template class PackedSum<double>;
+
+}  // namespace asterflow
