@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -108,15 +109,41 @@ void FiberResponse::set_motions(Eigen::Ref<Eigen::MatrixXd> motions) {
   }
 }
 
-// Lower triangle of E int dX_ss . X_ss ds.
-void FiberResponse::set_bending(Eigen::Ref<Eigen::MatrixXd> matrix) const {
-  double const stiffness = step_.bending_rigidity / length_;
-  auto const& bending = step_.basis->bending;
+// Lower triangle of E int dX_ss . X_ss ds + int T dX_s . X_s ds for the turns of the tangents.
+void FiberResponse::add_elasticity(Eigen::Ref<Eigen::MatrixXd> matrix) const {
+  FiberBasis const& basis = *step_.basis;
+  Map stiffness = scratch<2>(basis.n_tangent, basis.n_tangent), stretched = scratch<3>(basis.n_node, basis.n_tangent);
+  stiffness = (step_.bending_rigidity / length_) * basis.bending;
+  if (std::any_of(step_.tension.begin(), step_.tension.end(), [](double t) { return t > 0; })) {
+    for (int i = 0; i < basis.n_node; ++i)
+      stretched.row(i) = (weights_[i] * std::max(step_.tension[i], 0.0)) * basis.tangent.row(i);
+    stiffness.noalias() += basis.tangent.transpose() * stretched;
+  }
   for (int column = first_turn_; column < n_unknown_; ++column) {
     int const b = 2 + column - first_turn_;
     for (int row = column; row < n_unknown_; ++row) {
       int const a = 2 + row - first_turn_;
-      matrix(row, column) += stiffness * bending(a / 2, b / 2) * dot(directions_[a], directions_[b]);
+      matrix(row, column) += stiffness(a / 2, b / 2) * dot(directions_[a], directions_[b]);
+    }
+  }
+}
+
+// The rows of the rotations in int T dX_s . X_s ds. Only a force on an end makes them stiff; without one they are left
+// out, so that no torque appears on a free fiber.
+void FiberResponse::add_tension_of_rotations(Eigen::Ref<Eigen::MatrixXd> matrix) const {
+  bool const has_end_force = dot(step_.tip.force, step_.tip.force) > 0 || !step_.tip.stiffness.isZero(0.0);
+  if (step_.tension.empty() || (step_.minus_end == MinusEnd::free && !has_end_force)) return;
+  FiberBasis const& basis = *step_.basis;
+  for (int k = first_rotation_; k < first_turn_; ++k) {
+    Vec3d const axis = k == first_rotation_ ? directions_[1] : -directions_[0];
+    for (int i = 0; i < basis.n_node; ++i) {
+      Vec3d const pull = (weights_[i] * std::max(step_.tension[i], 0.0)) * cross(axis, tangents_[i]);
+      for (int l = k; l < first_turn_; ++l)
+        matrix(l, k) += dot(cross(l == first_rotation_ ? directions_[1] : -directions_[0], tangents_[i]), pull);
+      for (int l = first_turn_; l < n_unknown_; ++l) {
+        int const direction = 2 + l - first_turn_;
+        matrix(l, k) += basis.tangent(i, direction / 2) * dot(directions_[direction], pull);
+      }
     }
   }
 }
@@ -155,25 +182,31 @@ void FiberResponse::factorise(Centreline const& predicted) {
   lower_.resize(n_unknown_, n_unknown_);
   lower_.noalias() = rate_ * (drags.transpose() * motions);
   lower_.noalias() += tip_motion_.transpose() * step_.tip.stiffness * tip_motion_;
-  set_bending(lower_);
+  add_elasticity(lower_);
+  add_tension_of_rotations(lower_);
 
   reduced_.resize(n_unknown_, 3 * n + 7);
   reduced_.leftCols(3 * n) = drags.transpose();
   set_forcing(predicted.tangents, motions, reduced_.col(3 * n));
-  for (int k = 0; k < 6; ++k) {
-    auto column = reduced_.col(3 * n + 1 + k);
-    column.setZero();
-    if (!step_.body) continue;
-    Vector6 const q = Vector6::Unit(k);
-    for (int i = 0; i < n; ++i)
-      column += rate_ * reduced_.middleCols<3>(3 * i) * to_eigen(body_motion(q, nodes_[i]));
-    column += tip_motion_.transpose() * (step_.tip.stiffness * to_eigen(body_motion(q, plus_end_)));
-  }
+  set_body_columns();
   Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> const llt(lower_);
   if (llt.info() != Eigen::Success)
     throw NumericalError("the implicit problem of a fiber is not positive definite (length " + std::to_string(length_) +
                          " um, dt " + std::to_string(step_.scheme.dt) + " s)");
   llt.matrixL().solveInPlace(reduced_);
+}
+
+// Virtual work of the drag and of the spring at the plus end for the motion of the body.
+void FiberResponse::set_body_columns() {
+  int const n = step_.basis->n_node;
+  reduced_.rightCols<6>().setZero();
+  for (int k = 0; k < 6 && step_.body; ++k) {
+    auto column = reduced_.col(3 * n + 1 + k);
+    Vector6 const q = Vector6::Unit(k);
+    for (int i = 0; i < n; ++i)
+      column.noalias() += reduced_.middleCols<3>(3 * i) * (rate_ * to_eigen(body_motion(q, nodes_[i])));
+    column.noalias() += tip_motion_.transpose() * (step_.tip.stiffness * to_eigen(body_motion(q, plus_end_)));
+  }
 }
 
 void FiberResponse::set_body_resistance() {
@@ -271,6 +304,26 @@ Vec3d FiberResponse::tip_force(ConstPoints u, Vector6 const& q) const {
   Vec3d tip = plus_end_ + to_vec3(tip_motion_ * unknowns(u, q));
   if (step_.body) tip += body_motion(q - predicted_motion(), plus_end_);
   return step_.tip.force - step_.tip.stiffness * (tip - step_.tip.anchor);
+}
+
+void FiberResponse::tension(ConstPoints u, Vector6 const& q, Centreline const& shape, Vector tension) const {
+  FiberBasis const& basis = *step_.basis;
+  int const n = basis.n_node;
+  std::array<Vec3d, max_fiber_nodes> force{};  // per length, on the fluid
+  Vector6 no_load = Vector6::Zero();
+  add_affine({force.data(), static_cast<std::size_t>(n)}, no_load);
+  add_linear(u, q, {force.data(), static_cast<std::size_t>(n)}, no_load);
+  for (int i = 0; i < n; ++i) force[i] -= step_.load.external;  // elastic part
+  Vec3d const tip = tip_force(u, q);
+  for (int i = 0; i < n; ++i) {
+    Vec3d internal = tip, tangent, bend;
+    for (int j = 0; j < n; ++j) internal -= (length_ * basis.remainder(i, j)) * force[j];
+    for (int j = 0; j < basis.n_tangent; ++j) {
+      tangent += basis.tangent(i, j) * shape.tangents[j];
+      bend += (basis.derivative(i, j) / length_) * shape.tangents[j];
+    }
+    tension[i] = dot(internal, tangent) - step_.bending_rigidity * dot(bend, bend);
+  }
 }
 
 void FiberResponse::advance(ConstPoints u, Vector6 const& q, RigidPose const* new_pose, Centreline const& predicted,

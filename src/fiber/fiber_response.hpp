@@ -9,7 +9,9 @@
 // Eliminating them leaves, with q = (U, Omega) of the body that holds the minus end,
 //   force density on the fluid      f     = f_0 + R u + C q          [n_node, 3]  pN/um
 //   force and torque on that body   load  = l_0 + D u - S q          [6]          pN, pN um
-// The matrix of y is symmetric and positive definite: A = lower lower^T.
+// The matrix of y is symmetric and positive definite: A = lower lower^T. It contains the stiffness of a stretched fiber,
+// int T dX_s . X_s ds, for the tension T > 0 of the step before (T < 0, which lets fibers buckle, acts through the
+// predicted shape): a correction of second order in the step that removes the limit of the step by tension.
 
 #include "base/arrays.hpp"
 #include "base/rigid.hpp"
@@ -30,6 +32,7 @@ struct FiberStep {
   BodyMotionMap const* body = nullptr;  // null: not attached
   FiberLoad load;
   TipLoad tip;
+  ConstVector tension;  // [n_node] pN, of the step before; empty: none
 };
 
 class FiberResponse {
@@ -52,14 +55,18 @@ class FiberResponse {
 
   // Force on the plus end, pN, at the new time level.
   Vec3d tip_force(ConstPoints u, Vector6 const& q) const;
+  // tension [n_node], pN, overwritten: T = F . X_s - E |X_ss|^2, with the force F(s) that the part beyond s exerts.
+  void tension(ConstPoints u, Vector6 const& q, Centreline const& shape, Vector tension) const;
 
  private:
   void set_geometry(Centreline const& predicted, ConstPoints history, Points nodes, Vector weights);
   void set_directions(PointArray const& tangents);
   void set_motions(Eigen::Ref<Eigen::MatrixXd> motions);
-  void set_bending(Eigen::Ref<Eigen::MatrixXd> matrix) const;
+  void add_elasticity(Eigen::Ref<Eigen::MatrixXd> matrix) const;
+  void add_tension_of_rotations(Eigen::Ref<Eigen::MatrixXd> matrix) const;
   void set_forcing(PointArray const& tangents, Eigen::Ref<Eigen::MatrixXd const> motions, Eigen::Ref<Eigen::VectorXd> forcing) const;
   void factorise(Centreline const& predicted);
+  void set_body_columns();
   void set_body_resistance();
 
   Vec3d drag(int i, Vec3d velocity) const;           // (1/c) (I - t t / 2) velocity

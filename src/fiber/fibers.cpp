@@ -37,6 +37,8 @@ std::size_t Fibers::add(FiberProperties const& properties, MinusEndSite const& s
   fiber.properties = properties;
   fiber.site = site;
   fiber.past[0] = fiber.past[1] = fiber.past[2] = fiber.predicted = fiber.trial = fiber.newborn = shape;
+  fiber.tension.assign(properties.n_node, 0.0);
+  fiber.trial_tension = fiber.tension;
   lay_out();
   return fibers_.size() - 1;
 }
@@ -135,7 +137,8 @@ void Fibers::prepare(double dt, std::span<BodyMotionMap const> bodies) {
                          .minus_end = site.kind,
                          .body = site.is_attached() ? &bodies[site.body] : nullptr,
                          .load = fiber.plan.load,
-                         .tip = fiber.plan.tip};
+                         .tip = fiber.plan.tip,
+                         .tension = fiber.plan.is_newborn ? ConstVector{} : ConstVector(fiber.tension)};
     std::size_t const first = first_node_[i], n = own.n_node;
     fiber.response.prepare(step, fiber.predicted, fiber.history, Points(nodes_).subspan(first, n),
                            Vector(weights_).subspan(first, n));
@@ -179,6 +182,7 @@ void Fibers::advance(ConstPoints u, std::span<Vector6 const> q, std::span<RigidP
     Vector6 const motion = site.is_attached() ? q[site.body] : Vector6::Zero();
     fiber.response.advance(u.subspan(first_node_[i], fiber.properties.n_node), motion,
                            site.is_attached() ? &poses[site.body] : nullptr, fiber.predicted, fiber.trial);
+    fiber.response.tension(u.subspan(first_node_[i], fiber.properties.n_node), motion, fiber.trial, fiber.trial_tension);
     estimate_error(fiber);
   });
 }
@@ -209,6 +213,7 @@ void Fibers::accept() {
     std::swap(fiber.past[2], fiber.past[1]);
     std::swap(fiber.past[1], fiber.past[0]);
     std::swap(fiber.past[0], fiber.trial);
+    std::swap(fiber.tension, fiber.trial_tension);
     fiber.n_past = std::min(fiber.n_past + 1, 3);
   }
   dt_2_ = dt_1_;

@@ -77,6 +77,7 @@ class Fibers {
   Centreline const& trial_shape(std::size_t fiber) const { return fibers_[fiber].trial; }
   MinusEndSite const& site(std::size_t fiber) const { return fibers_[fiber].site; }
   FiberProperties const& properties(std::size_t fiber) const { return fibers_[fiber].properties; }
+  ConstVector tension(std::size_t fiber) const { return fibers_[fiber].tension; }  // [n_node] pN, positive: stretched
   double elastic_energy() const;  // pN um
 
   // Everything that an exact restart needs, and back into fibers added in the same order.
@@ -93,6 +94,7 @@ class Fibers {
     Centreline newborn, predicted, trial;
     PointArray history, extrapolated, sampled;  // [n_node] a1 X_now + a2 X_before; quadratic extrapolation; buffer
     std::vector<double> coordinates;            // [n_node] buffer
+    std::vector<double> tension, trial_tension;  // [n_node] pN
     FiberResponse response;
     double error = 0.0;  // um
   };

@@ -1,10 +1,13 @@
 // What is stored of fibers, and how it comes back.
 //   fiber/length [n_fiber] um, fiber/minus_end [n_fiber, 3] um, fiber/tangent [n_tangent_total, 3]: the shapes
+//   fiber/tension [n_node_total] pN, positive where stretched
 //   fiber/history/...: the same of the two accepted states before, how many of them count, and their time steps
 //   fiber/site/...: what holds the minus ends
 
 #include "base/error.hpp"
 #include "fiber/fibers.hpp"
+
+#include <algorithm>
 
 namespace asterflow {
 
@@ -43,6 +46,9 @@ std::vector<NamedArray> Fibers::state() const {
     arrays.push_back(NamedArray::of(prefix + "minus_end", minus_ends, "um"));
     arrays.push_back(NamedArray::of(prefix + "tangent", tangents, ""));
   }
+  std::vector<double> tensions;
+  for (Fiber const& fiber : fibers_) tensions.insert(tensions.end(), fiber.tension.begin(), fiber.tension.end());
+  arrays.push_back(NamedArray::of("fiber/tension", std::move(tensions), "pN"));
   std::vector<std::int64_t> counts, kinds, bodies;
   PointArray positions, directions;
   for (Fiber const& fiber : fibers_) {
@@ -78,6 +84,9 @@ void Fibers::restore(std::span<NamedArray const> state) {
       for (Vec3d& t : shape.tangents) t = point(tangents, next++);
     }
   }
+  auto const& tensions = values_of<double>(state, "fiber/tension", node_count());
+  for (std::size_t i = 0; i < n; ++i)
+    std::copy_n(tensions.begin() + first_node_[i], fibers_[i].tension.size(), fibers_[i].tension.begin());
   auto const& counts = values_of<std::int64_t>(state, "fiber/history/count", n);
   auto const& time_steps = values_of<double>(state, "fiber/history/time_step", 2);
   auto const& kinds = values_of<std::int64_t>(state, "fiber/site/kind", n);
