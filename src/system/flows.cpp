@@ -49,6 +49,19 @@ SceneFlows make_flows(Scene const& scene, Resolution resolution) {
   return flows;
 }
 
+SceneRadiation make_radiation(Scene const& scene, SceneFlows const& flows, bool has_fibers) {
+  SceneRadiation radiation;
+  auto const& run = scene.run;
+  if (run.interactions == Interactions::local) return radiation;
+  auto const make = [&](SceneFlows const& level, double accuracy) {
+    return std::make_unique<Radiation>(level.bodies, level.periphery,
+                                       RadiationOptions{scene.fluid.viscosity, run.evaluator, accuracy});
+  };
+  radiation.fine = make(flows, run.evaluator_accuracy);
+  if (has_fibers) radiation.coarse = make(make_flows(scene, Resolution::coarse), 1e-3);
+  return radiation;
+}
+
 Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double viscosity) {
   Matrix6 turn = Matrix6::Zero();
   turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = pose.rotation;

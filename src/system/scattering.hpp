@@ -69,6 +69,9 @@ class Scattering {
 
   ConstPoints nodes() const;  // where z lives; without interactions the fibers' nodes
 
+  // Changes what drives a body.
+  void set_drive(std::size_t body, Vector6 const& value) { bodies_[body].value = value; }
+
   // `background` is an imposed flow at the nodes, `guess` a z to start from; either may be empty.
   ScatteringSolution solve(ConstPoints background, ConstPoints guess);
 

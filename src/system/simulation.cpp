@@ -49,15 +49,7 @@ Simulation::Simulation(Scene scene)
   if (scene_.background) background_.emplace(*scene_.background);
   if (scene_.dynamic_instability) growth_.emplace(*scene_.dynamic_instability, run.seed);
   add_scene_fibers(scene_, fibers_, growth_);
-  if (run.interactions != Interactions::local) {
-    RadiationOptions options{scene_.fluid.viscosity, run.evaluator, run.evaluator_accuracy};
-    radiation_ = std::make_unique<Radiation>(flows_.bodies, flows_.periphery, options);
-    if (fibers_.count() > 0) {
-      auto const flows = make_flows(scene_, Resolution::coarse);
-      coarse_ = std::make_unique<Radiation>(flows.bodies, flows.periphery,
-                                            RadiationOptions{scene_.fluid.viscosity, run.evaluator, 1e-3});
-    }
-  }
+  radiation_ = make_radiation(scene_, flows_, fibers_.count() > 0);
   dt_ = run.time_step;
 }
 
@@ -77,13 +69,17 @@ void Simulation::plan_fibers(double dt) {
   growth_->plan(fibers_);
 }
 
+Matrix6 Simulation::resistance_alone(std::size_t body, RigidPose const& pose) const {
+  return body_resistance(*flows_.bodies[body], pose, scene_.fluid.viscosity);
+}
+
 std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps) const {
   std::vector<BodyDrive> drives;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     auto const& body = bodies_[b];
-    BodyDrive drive{maps[b].predicted, body_resistance(*flows_.bodies[b], maps[b].predicted, scene_.fluid.viscosity),
+    BodyDrive drive{maps[b].predicted, resistance_alone(b, maps[b].predicted),
                     body.is_free(), body.is_free() ? body.external_load() : body.prescribed_motion()};
-    if (!radiation_ && background_ && body.is_free()) {  // otherwise the background is part of the incident flow
+    if (!radiation_.fine && background_ && body.is_free()) {  // otherwise the background is part of the incident flow
       Vector6 carried;
       carried << to_eigen(background_->velocity(drive.pose.position)), to_eigen(background_->rotation());
       drive.value += drive.resistance * carried;
@@ -103,14 +99,14 @@ PointArray Simulation::guess(double dt) const {
 
 Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   Timer const timer;
-  Radiation::Seconds const before = radiation_ ? radiation_->seconds() : Radiation::Seconds{};
+  Radiation::Seconds const before = radiation_.fine ? radiation_.fine->seconds() : Radiation::Seconds{};
   std::vector<BodyMotionMap> maps;
   for (auto& body : bodies_) maps.push_back(body.predict(dt));
   plan_fibers(dt);
   fibers_.prepare(dt, maps);
 
   SteppedFibers const answers(fibers_);
-  Scattering scattering(answers, drives(maps), radiation_.get(), coarse_.get(),
+  Scattering scattering(answers, drives(maps), radiation_.fine.get(), radiation_.coarse.get(),
                         {.tolerance = scene_.run.gmres_tolerance, .max_iterations = scene_.run.gmres_max_iterations});
   auto const nodes = scattering.nodes();
   report.prepare_seconds += timer.seconds();
@@ -122,9 +118,9 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   PointArray const start = guess(dt);
   Trial trial{dt, 0.0, scattering.solve(imposed, start.size() == nodes.size() ? start : PointArray{})};
 
-  if (radiation_) {
-    report.sum_seconds += radiation_->seconds().sums - before.sums;
-    report.surface_seconds += radiation_->seconds().surfaces - before.surfaces;
+  if (radiation_.fine) {
+    report.sum_seconds += radiation_.fine->seconds().sums - before.sums;
+    report.surface_seconds += radiation_.fine->seconds().surfaces - before.surfaces;
     report.coarse_seconds += trial.solution.coarse_seconds;
   }
 

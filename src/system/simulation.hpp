@@ -41,7 +41,9 @@ class Simulation {
   double time() const { return time_; }  // s
   Fibers const& fibers() const { return fibers_; }
   std::vector<RigidBody> const& bodies() const { return bodies_; }
-  std::vector<RigidBody>& bodies() { return bodies_; }
+
+  // Of a body without its fibers in unbounded fluid, in the given pose.
+  Matrix6 resistance_alone(std::size_t body, RigidPose const& pose) const;
 
   // One accepted step, not beyond `until` (s). Throws NumericalError when no step down to the smallest is accepted;
   // the state is then that of the last accepted step.
@@ -73,7 +75,7 @@ class Simulation {
   GrowthSurroundings surroundings_;
   std::optional<BackgroundFlow> background_;
   SceneFlows flows_;
-  std::unique_ptr<Radiation> radiation_, coarse_;  // none without interactions
+  SceneRadiation radiation_;
   double time_ = 0.0, dt_ = 0.0;                   // s; dt: to try next
   ScatteringSolution last_, before_;               // of the last two accepted steps
   double last_dt_ = 0.0;

@@ -101,7 +101,7 @@ std::vector<NamedArray> Simulation::frame() const {
   };
   if (!bodies_.empty()) append(body_frame());
   if (fibers_.count() > 0) append(fiber_frame());
-  if (radiation_) {
+  if (radiation_.fine) {
     std::size_t const n_fiber_node = std::min(fibers_.node_count(), last_.incident.size());
     PointArray incident(last_.incident.begin() + static_cast<long>(n_fiber_node), last_.incident.end());
     append({NamedArray::of("flow/incident", incident, "um/s")});

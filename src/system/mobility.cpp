@@ -1,0 +1,64 @@
+#include "system/mobility.hpp"
+
+#include "base/error.hpp"
+#include "system/flows.hpp"
+#include "system/population.hpp"
+#include "system/rigid_fibers.hpp"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+namespace asterflow {
+namespace {
+
+// Loads that the bodies exert on the fluid and their fibers when they move with `motions`.
+Eigen::VectorXd loads_of(RigidFibers const& fibers, Radiation* radiation, std::vector<BodyDrive> const& bodies,
+                         ScatteringSolution const& solution) {
+  Eigen::VectorXd result(6 * bodies.size());
+  std::size_t const n = fibers.nodes().positions.size();
+  std::vector<Vector6> from_fibers(bodies.size(), Vector6::Zero());
+  PointArray force_density(n);
+  fibers.add_linear_response(ConstPoints(solution.incident).first(n), solution.motions, force_density, from_fibers);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    Vector6 load = bodies[b].resistance * solution.motions[b] - from_fibers[b];
+    if (radiation) load -= radiation->load_of_incident(b, solution.incident);
+    result.segment<6>(6 * static_cast<Eigen::Index>(b)) = load;
+  }
+  return result;
+}
+
+}  // namespace
+
+SceneMobility scene_mobility(Scene const& scene) {
+  SceneMobility result;
+  std::size_t const n = scene.bodies.size();
+  Fibers fibers(scene.fluid.viscosity);
+  std::optional<DynamicInstability> no_growth;
+  add_scene_fibers(scene, fibers, no_growth);
+  SceneFlows const flows = make_flows(scene, Resolution::fine);
+  SceneRadiation const exchange = make_radiation(scene, flows, fibers.count() > 0);
+  std::vector<BodyDrive> bodies;
+  std::vector<RigidPose> poses;
+  for (std::size_t b = 0; b < n; ++b) {
+    result.names.push_back(scene.bodies[b].name);
+    poses.push_back({scene.bodies[b].position, scene.bodies[b].orientation.toRotationMatrix()});
+    bodies.push_back({poses[b], body_resistance(*flows.bodies[b], poses[b], scene.fluid.viscosity), false});
+  }
+  RigidFibers const rigid(fibers, scene.fluid.viscosity, poses);
+  Scattering scattering(rigid, bodies, exchange.fine.get(), exchange.coarse.get(),
+                        {.tolerance = scene.run.gmres_tolerance, .max_iterations = scene.run.gmres_max_iterations});
+  result.resistance.resize(6 * n, 6 * n);
+  for (Eigen::Index column = 0; column < result.resistance.cols(); ++column) {
+    for (std::size_t b = 0; b < n; ++b) scattering.set_drive(b, Vector6::Zero());
+    scattering.set_drive(column / 6, Vector6::Unit(column % 6));
+    auto const solution = scattering.solve({}, {});
+    if (!solution.gmres.converged)
+      throw NumericalError(fmt::format("mobility: GMRES stopped after {} iterations at residual {:.3g}",
+                                       solution.gmres.iterations, solution.gmres.residual));
+    result.resistance.col(column) = loads_of(rigid, exchange.fine.get(), bodies, solution);
+  }
+  result.mobility = result.resistance.inverse();
+  return result;
+}
+
+}  // namespace asterflow
