@@ -4,6 +4,7 @@
 
 #include <Kokkos_Core.hpp>
 
+#include <algorithm>
 #include <exception>
 #include <mutex>
 #include <string>
@@ -12,6 +13,8 @@ namespace asterflow {
 
 using HostSpace = Kokkos::DefaultHostExecutionSpace;
 
+inline int thread_count() { return HostSpace().concurrency(); }
+
 // body(i) for i in [0, n); work per index may be uneven. An exception thrown by a body is rethrown here.
 template <class Body>
 void parallel_for(char const* label, long n, Body const& body) {
@@ -19,7 +22,7 @@ void parallel_for(char const* label, long n, Body const& body) {
   std::mutex guard;
   using Policy = Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>, Kokkos::IndexType<long>>;
   Policy policy(0, n);
-  policy.set_chunk_size(1);
+  policy.set_chunk_size(static_cast<int>(std::max(1L, n / (16 * thread_count()))));  // even and uneven work alike
   Kokkos::parallel_for(std::string("asterflow::") + label, policy, [&](long i) {
     try {
       body(i);
@@ -30,7 +33,5 @@ void parallel_for(char const* label, long n, Body const& body) {
   });
   if (failure) std::rethrow_exception(failure);
 }
-
-inline int thread_count() { return HostSpace().concurrency(); }
 
 }  // namespace asterflow
