@@ -215,6 +215,7 @@ Frame TrajectoryReader::frame(std::size_t i) const {
 
 std::size_t TrajectoryReader::nearest(double time) const {
   if (times_.empty()) throw SceneError(path_ + ": holds no states");
+  if (time >= times_.back()) return times_.size() - 1;
   auto const distance = [&](double a, double b) { return std::abs(a - time) < std::abs(b - time); };
   return std::min_element(times_.begin(), times_.end(), distance) - times_.begin();
 }

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Picture of a plane of flow: speed in colour, streamlines, fibers coloured by tension (red: compression, blue:
+extension), outlines of bodies and periphery.
+
+    plot_flow.py FLOW.h5 PICTURE.png
+
+FLOW.h5 is written by `asterflow flow`; docs/flow.md lists its content.
+"""
+
+import sys
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import LineCollection
+
+MANY_FIBERS = 150  # beyond this only what is near the plane is drawn
+SLAB = 3.0  # um, half its thickness
+
+
+def fiber_segments(file, axes, normal, offset):
+    """Segments [n, 2, 2] of the fibers in the plane of the picture, and the tension [n] in each."""
+    first = file["fiber/first"][:]
+    position = file["fiber/position"][:]
+    tension = file["fiber/tension"][:]
+    inner = np.ones(len(position), dtype=bool)  # nodes that have a next one on the same fiber
+    inner[first[1:] - 1] = False
+    start = np.flatnonzero(inner)
+    segments = np.stack([position[start][:, axes], position[start + 1][:, axes]], axis=1)
+    strength = (tension[start] + tension[start + 1]) / 2
+    if len(first) - 1 > MANY_FIBERS:
+        near = np.abs((position[start, normal] + position[start + 1, normal]) / 2 - offset) < SLAB
+        segments, strength = segments[near], strength[near]
+    return segments, strength
+
+
+def draw_flow(file, axis, figure):
+    first, second = file["first"][:], file["second"][:]
+    names = file["axes"][()].decode().split()
+    axes = ["xyz".index(name) for name in names]
+    normal = 3 - sum(axes)
+    plane = file["plane"][()].decode()
+    velocity = file["velocity"][:][..., axes]
+    speed = np.hypot(velocity[..., 0], velocity[..., 1])
+    finite = speed[np.isfinite(speed)]
+    top = np.quantile(finite, 0.995) if finite.size and finite.max() > 0 else 1.0
+
+    image = axis.pcolormesh(first, second, speed, cmap="viridis", vmin=0, vmax=top, shading="gouraud", rasterized=True)
+    figure.colorbar(image, ax=axis, label="speed in the plane (um/s)", shrink=0.75, pad=0.02)
+    if finite.size and finite.max() > 0:
+        blank = np.ma.masked_invalid(velocity)
+        axis.streamplot(first, second, blank[..., 0], blank[..., 1], color="white", linewidth=0.6, arrowsize=0.7,
+                        density=1.6)
+    if "fiber" in file:
+        segments, tension = fiber_segments(file, axes, normal, float(plane.split("=")[1]))
+        limit = max(np.quantile(np.abs(tension), 0.98) if len(tension) else 0.0, 1e-12)
+        lines = LineCollection(segments, cmap="RdBu", linewidths=0.9)
+        lines.set_array(tension)
+        lines.set_clim(-limit, limit)
+        axis.add_collection(lines)
+        figure.colorbar(lines, ax=axis, label="tension of fibers (pN)", shrink=0.75, pad=0.02)
+    for name, color in (("periphery_distance", "black"), ("body_distance", "black")):
+        if name in file:
+            distance = file[name][:]
+            if name == "body_distance":
+                axis.contourf(first, second, distance, levels=[-1e9, 0], colors=["0.75"], zorder=3)
+            axis.contour(first, second, distance, levels=[0], colors=color, linewidths=1.4, zorder=3)
+    axis.set(xlim=(first[0], first[-1]), ylim=(second[0], second[-1]), aspect="equal", xlabel=f"{names[0]} (um)",
+             ylabel=f"{names[1]} (um)", title=f"{plane} um, t = {file['time'][()]:.4g} s")
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    with h5py.File(sys.argv[1]) as file:
+        figure, axis = plt.subplots(figsize=(10, 5.5), constrained_layout=True)
+        draw_flow(file, axis, figure)
+        figure.savefig(sys.argv[2], dpi=160)
+
+
+if __name__ == "__main__":
+    main()
