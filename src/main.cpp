@@ -2,12 +2,19 @@
 //   0 done   1 bad input   2 numerical failure, state saved   3 internal error
 
 #include "base/error.hpp"
+#include "command/check.hpp"
+#include "command/drag.hpp"
 #include "command/export.hpp"
+#include "command/flow.hpp"
+#include "command/mobility.hpp"
+#include "command/resume.hpp"
+#include "command/run.hpp"
 #include "command/sum.hpp"
 #include "io/versions.hpp"
 
 #include <Kokkos_Core.hpp>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -36,14 +43,17 @@ int run(int argc, char** argv) {
       "\nasterflow COMMAND --help explains a command.\n"
       "Exit codes: 0 done, 1 bad input, 2 numerical failure (state saved), 3 internal error.\n"
       "Threads: set OMP_NUM_THREADS.\n");
-  asterflow::add_export_command(program, chosen);
-  asterflow::add_sum_command(program, chosen);
+  for (auto const add : {asterflow::add_run_command, asterflow::add_resume_command, asterflow::add_check_command,
+                         asterflow::add_mobility_command, asterflow::add_flow_command, asterflow::add_drag_command,
+                         asterflow::add_export_command, asterflow::add_sum_command})
+    add(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& error) {
     return report_usage(program, error);
   }
   if (!chosen) return report("asterflow: a command is missing (see asterflow --help)", 1);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error like a full disk
   setenv("OMP_PROC_BIND", "false", 0);  // several runs on one machine must not share a core; also silences Kokkos
   Kokkos::ScopeGuard const kokkos;
   chosen();

@@ -1,0 +1,96 @@
+#include "command/drag.hpp"
+
+#include "base/error.hpp"
+#include "base/timer.hpp"
+#include "command/progress.hpp"
+#include "io/picture.hpp"
+#include "io/scene.hpp"
+#include "system/drag.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+#include <unistd.h>
+
+namespace asterflow {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct DragOptions {
+  std::string scene;
+  std::string folder;
+  std::vector<std::string> overrides;
+};
+
+// Writes all points so far; the file is replaced at once, so that an interrupted study leaves a whole one.
+void write_points(fs::path const& path, std::vector<DragPoint> const& points) {
+  fs::path const part = path.string() + ".part";
+  std::ofstream file(part);
+  file << "level,fibers,translation_drag,translation_spread,rotation_drag,rotation_spread,gmres_iterations,steps,seconds\n";
+  for (auto const& p : points)
+    file << fmt::format("{},{},{:.8g},{:.3g},{:.8g},{:.3g},{:.3g},{},{:.4g}\n", name_of(p.level), p.fiber_count,
+                        p.translation, p.translation_spread, p.rotation, p.rotation_spread, p.iterations, p.steps,
+                        p.seconds);
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(part, path, error);
+  if (!file || error) throw SceneError(path.string() + ": cannot be written; is the disk full or the folder protected?");
+}
+
+fs::path prepare_folder(DragOptions const& options) {
+  fs::path folder = options.folder;
+  if (folder.empty()) folder = fs::path(options.scene).stem().string() + "-drag";
+  std::error_code error;
+  if (fs::exists(folder / "drag.csv", error))
+    throw SceneError((folder / "drag.csv").string() + ": is there already; choose another folder with -o");
+  fs::create_directories(folder, error);
+  if (error || ::access(folder.c_str(), W_OK) != 0)
+    throw SceneError(folder.string() + ": cannot be used for output; choose another folder with -o");
+  return folder;
+}
+
+void show(DragPoint const& point, double fraction, Timer const& timer) {
+  if (!isatty(STDERR_FILENO)) return;
+  fmt::print(stderr, "\r\033[K{} with {} fibers: {:.0f} %   {} so far", name_of(point.level), point.fiber_count,
+             100 * fraction, duration_words(timer.seconds()));
+}
+
+void study(DragOptions const& options) {
+  Scene const scene = read_scene(options.scene, options.overrides);
+  fs::path const folder = prepare_folder(options);
+  fs::path const table = folder / "drag.csv", picture = folder / "drag.png";
+  std::vector<DragPoint> points;
+  Timer const timer;
+  auto const done = [&](DragPoint const& point) {
+    points.push_back(point);
+    write_points(table, points);
+    fmt::print(stderr, "{}{:<9} {:>5} fibers   translation {:8.4g}   rotation {:8.4g}   {:.1f} iterations   {}\n",
+               isatty(STDERR_FILENO) ? "\r\033[K" : "", name_of(point.level), point.fiber_count, point.translation,
+               point.rotation, point.iterations, duration_words(point.seconds));
+  };
+  drag_study(scene, done, [&](DragPoint const& point, double fraction) { show(point, fraction, timer); });
+  fmt::print("{}\n", table.string());
+  if (draw_picture("plot_drag.py", {table.string(), picture.string()})) fmt::print("{}\n", picture.string());
+}
+
+}  // namespace
+
+void add_drag_command(CLI::App& program, Action& chosen) {
+  auto const options = std::make_shared<DragOptions>();
+  auto* const command = program.add_subcommand(
+      "drag", "The paper's Figure 2: drag of a body with growing fibers against their number, for the levels local, open\n"
+              "and confined, relative to the body alone in unbounded fluid. Writes DIR/drag.csv and DIR/drag.png; the\n"
+              "table [drag] of the scene says which numbers, levels, force, torque and times.");
+  command->add_option("scene", options->scene, "scene file (TOML)")->required();
+  command->add_option("-o,--output", options->folder, "folder; SCENE-drag when not given");
+  add_overrides(*command, options->overrides);
+  command->footer(examples(
+      "  asterflow drag scenes/figure2.toml -o figure2\n"
+      "  asterflow drag scenes/figure2.toml -o quick --set drag.fiber_counts=[0,100,200] --set drag.duration=1\n"));
+  command->callback([options, &chosen] { chosen = [options] { study(*options); }; });
+}
+
+}  // namespace asterflow

@@ -1,0 +1,67 @@
+#include "command/simulate.hpp"
+
+#include "base/error.hpp"
+#include "command/progress.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <csignal>
+#include <fmt/format.h>
+
+namespace asterflow {
+
+namespace {
+
+std::atomic<int> caught_signal = 0;
+
+// The first signal asks the run to stop after its step; a second one ends the program at once.
+void note_signal(int signal) {
+  caught_signal = signal;
+  std::signal(signal, SIG_DFL);
+}
+
+// The next time to store a state: a multiple of the interval, so that a resumed run takes the same steps.
+double next_output(double time, double interval, double end_time) {
+  double const n = std::floor(time / interval * (1.0 + 1e-12) + 1e-9) + 1.0;
+  return std::min(n * interval, end_time);
+}
+
+}  // namespace
+
+void store_state(Simulation const& simulation, TrajectoryWriter& trajectory) {
+  trajectory.append({simulation.time(), simulation.frame()}, simulation.restart());
+}
+
+void simulate(Simulation& simulation, TrajectoryWriter& trajectory, std::filesystem::path const& folder) {
+  auto const& scene = simulation.scene();
+  double const end_time = scene.run.end_time;
+  std::signal(SIGINT, note_signal);
+  std::signal(SIGTERM, note_signal);
+  Progress progress(simulation.time(), end_time);
+  double stored = simulation.time();
+  while (simulation.time() < end_time) {
+    double const until = next_output(simulation.time(), scene.output.interval, end_time);
+    try {
+      progress.show(simulation.step(until));
+    } catch (NumericalError const& error) {
+      progress.finish();
+      if (simulation.time() > stored) store_state(simulation, trajectory);
+      throw NumericalError(fmt::format("{}; the last accepted state is stored, look at it with: asterflow flow {} --time {:g}",
+                                       error.what(), folder.string(), simulation.time()));
+    }
+    if (simulation.time() >= until || caught_signal) {
+      store_state(simulation, trajectory);
+      stored = simulation.time();
+    }
+    if (int const signal = caught_signal) {
+      progress.finish();
+      fmt::print(stderr, "stopped at t = {:g} s; go on with: asterflow resume {}\n", stored, folder.string());
+      std::raise(signal);
+    }
+  }
+  progress.finish();
+  fmt::print(stderr, "{} steps in {}\n", progress.steps(), duration_words(progress.seconds()));
+}
+
+}  // namespace asterflow

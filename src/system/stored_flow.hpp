@@ -1,0 +1,27 @@
+#pragma once
+// The flow of a stored state, from its force densities, motions and incident flows (docs/trajectory.md): no solve.
+
+#include "io/scene.hpp"
+#include "io/trajectory.hpp"
+#include "system/radiation.hpp"
+
+#include <memory>
+
+namespace asterflow {
+
+class StoredFlow {
+ public:
+  // Throws SceneError when the state holds no flow: level `local`, or stored before the first solve.
+  StoredFlow(Scene const& scene, Frame const& frame);
+
+  // velocity [n] (um/s) at points [n] of the fluid, overwritten.
+  void velocity(ConstPoints points, Points velocity) const;
+
+ private:
+  Scene scene_;
+  std::unique_ptr<Radiation> radiation_;
+  PointArray force_density_, incident_;
+  std::vector<Vector6> motions_;
+};
+
+}  // namespace asterflow
