@@ -15,5 +15,6 @@ std::unique_ptr<Evaluator> make_direct_avx512(std::string_view kernel, double ac
 // Whether this build and this machine can run the backend.
 bool has_direct_avx2();
 bool has_direct_avx512();
+std::unique_ptr<Evaluator> make_fast(std::string_view kernel, double accuracy);
 
 }  // namespace asterflow

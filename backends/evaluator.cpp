@@ -24,6 +24,7 @@ constexpr std::array backends{
     Backend{"direct-avx512", make_direct_avx512, has_direct_avx512},
     Backend{"direct-avx2", make_direct_avx2, has_direct_avx2},
     Backend{"direct-portable", make_direct_portable, always},
+    Backend{"fast", make_fast, always},
     Backend{"reference", make_reference, always},
 };
 

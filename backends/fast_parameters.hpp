@@ -1,0 +1,28 @@
+#pragma once
+// Numbers of the fast summation that follow from the requested accuracy. See docs/summation.md.
+
+#include <string_view>
+
+namespace asterflow {
+
+struct FastParameters {
+  double accuracy;
+  double split_shape;       // c of the window that splits the kernel
+  double band;              // wave numbers kept, times the cutoff
+  double nodes_per_cutoff;  // grid nodes per cutoff length
+  int width;                // nodes of the grid window
+  double window_shape;      // its c
+  double local_tolerance;   // of the polynomials of the local part
+  bool single;              // float arithmetic
+  int refinement_steps;     // of the reciprocal square root, beyond the first for double
+
+  long capacity = 250;        // points of a leaf
+  double max_nodes = 8e6;     // of one patch
+  int first_level = 0;        // level of the coarsest cutoff
+  double enlargement = 1.0;   // of the root
+};
+
+// For a relative error of `accuracy`, 1e-12 ... 1e-3.
+FastParameters fast_parameters(std::string_view kernel, double accuracy);
+
+}  // namespace asterflow

@@ -1,0 +1,52 @@
+#pragma once
+// One rectangular piece of one level: a periodic grid on which the sources near the patch act on the targets
+// inside it through that level's band-limited kernel. Lengths are in units of the root's side.
+
+#include "backends/fast_tree.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace asterflow {
+
+// Points of a patch sorted by the grid tile that holds their first node (16 x 16 nodes in y and z).
+struct TiledPoints {
+  std::vector<std::uint32_t> index;   // in the order of the tree
+  std::vector<long> tile_begin;       // [n_tile + 1]
+};
+
+// Multipliers of the Fourier modes, per octant of wave numbers [|jz|, |jy|, jx]; zero outside the band.
+template <class Real>
+struct SymbolTable {
+  int modes[3] = {0, 0, 0};   // largest wave number kept in each direction
+  int stride = 0;             // of jx, rounded up to whole vectors
+  double band = 0.0;          // |k| kept, in units of 1 / grid spacing
+  std::vector<Real> value;
+};
+
+template <class Real>
+struct Patch {
+  static constexpr int tile = 16;
+
+  int nodes[3] = {0, 0, 0};          // of the periodic grid
+  Vec3d origin;                      // position of node (0, 0, 0)
+  double spacing = 1.0;
+  double scale = 1.0;                // from grid units of velocity to normalised ones
+  int tiles_y = 1, tiles_z = 1;
+  int target_low[3] = {0, 0, 0};     // nodes from which targets are interpolated
+  int target_high[3] = {0, 0, 0};    // one past the last
+  TiledPoints sources, targets;
+  std::shared_ptr<SymbolTable<Real> const> symbol;
+
+  int tile_of(int node, int direction) const {
+    int const n_tile = direction == 1 ? tiles_y : tiles_z;
+    int const i = node / tile;
+    return i < n_tile ? i : n_tile - 1;
+  }
+  Range tile_nodes(int i_tile, int direction) const {
+    int const n_tile = direction == 1 ? tiles_y : tiles_z;
+    return {i_tile * tile, i_tile + 1 == n_tile ? nodes[direction] : (i_tile + 1) * tile};
+  }
+};
+
+}  // namespace asterflow

@@ -1,0 +1,41 @@
+#pragma once
+// Each kernel as a smooth part, band-limited in Fourier space, plus a local part that vanishes beyond a
+// cutoff [Hasimoto 1959; Lindbo & Tornberg 2010; af Klinteberg, Greengard, Jiang & Tornberg 2025].
+// All kernels are derivatives of the biharmonic function r:
+//   Stokeslet  (I lap - grad grad) r          rotlet  curl (lap r / 2)
+//   stresslet  (delta_ik d_j + delta_ij d_k + delta_jk d_i) lap r - 2 d_i d_j d_k r      (all / 8 pi)
+// r is replaced by W(r) with W'' = 2 g, g a window on [-1, 1]: W equals r beyond the cutoff 1 and is smooth
+// inside. In Fourier space W is -8 pi / k^4 times filter(k) = spectrum(k) - k spectrum'(k) / 2.
+
+#include "backends/fast_window.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace asterflow {
+
+// The local part for cutoff 1, with polynomials A, B in u = 2 r^2 - 1:
+//   Stokeslet  (1/r - A) f + (1/r^3 - B) r (r.f)
+//   rotlet     (1/r^3 - B) t x r
+//   stresslet  -A (q (n.r) + n (q.r) + (q.n) r) - 6 (1/r^5 - B) r (q.r) (n.r)
+// Coefficients of u^0, u^1, ...; both of the same length.
+struct LocalPart {
+  std::vector<double> a, b;
+};
+
+class KernelSplit {
+ public:
+  explicit KernelSplit(double shape) : window_(shape) {}
+
+  double filter(double k) const { return window_.spectrum(k) - 0.5 * k * window_.spectrum_slope(k); }
+  LocalPart local_part(std::string_view kernel, double tolerance) const;
+
+ private:
+  // Integral over s in [0, 1] of s^power f(r s).
+  template <class F>
+  static double moment(int power, double r, F const& f);
+
+  KaiserBessel window_;
+};
+
+}  // namespace asterflow
