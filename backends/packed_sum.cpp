@@ -44,12 +44,13 @@ void PackedSum<Real>::set_points(ConstPoints sources, ConstPoints targets, Const
 
   long const n_row_group = (n_source_ + lanes - 1) / lanes, n_other = n_target_ - n_self_;
   long const n_group = (n_other + lanes - 1) / lanes;
-  grow(records_, n_row_group * lanes * width, "records");
+  grow(records_, (n_row_group * lanes + 1) * width, "records");
   grow(rows_, n_self_ > 0 ? n_row_group * lanes * width : 0, "rows");
   grow(row_velocity_, n_self_ > 0 ? n_row_group * lanes * 3 : 0, "row_velocity");
   grow(targets_, n_group * lanes * n_coordinates<Real>, "targets");
   grow(target_velocity_, n_group * lanes * 3, "target_velocity");
 
+  std::fill_n(&records_(n_row_group * lanes * width), width, Real(0));
   // Padding repeats the last point; as a source it has strength 0.
   for (long j = 0; j < n_row_group * lanes; ++j) {
     long const i = std::min(j, n_source_ - 1);

@@ -54,7 +54,7 @@ class PackedSum {
   long first_self_ = 0, n_self_ = 0;  // targets first_self_ ... first_self_ + n_self_ - 1 are the sources
   double strength_unit_ = 1.0;
   std::vector<Block> blocks_;     // of the sources, for the sum both ways
-  Numbers<Real> records_;         // [sources, padded to whole groups][n_numbers]
+  Numbers<Real> records_;         // [sources, padded to whole groups, and one][n_numbers]
   Numbers<Real> rows_;            // [groups of sources][n_numbers, lanes], when n_self_ > 0
   Numbers<Real> targets_;         // [groups of other targets][n_coordinates, lanes]
   Numbers<double> row_velocity_;     // [groups of sources][3, lanes]

@@ -25,28 +25,35 @@ constexpr int coordinate_count = sizeof(Real) == 4 ? 6 : 3;  // n_coordinates of
 template <class Real>
 using Simd = typename Pack<Real>::Vector;
 
-// y (1 + e/2 + 3/8 e^2 + ...) = 1 / sqrt(a) for an estimate y, with e = 1 - a y^2: the binomial series.
+// Coefficients c0 + c1 e + c2 e^2 + ... of 1 / sqrt(1 - e) for |e| <= 2 (estimate error): the binomial series, and
+// its first neglected term spread evenly over that interval (Chebyshev) where it is above rounding.
+template <class Real, int steps>
+struct InverseSqrtSeries {
+  static constexpr double range = 2.0 * Pack<Real>::estimate_error;
+  static constexpr double c[] = {1.0 + (steps == 1 ? 3.0 / 16 * range * range : 0.0),
+                                 1.0 / 2 + (steps == 2 ? 15.0 / 64 * range * range : 0.0), 3.0 / 8, 5.0 / 16, 35.0 / 128};
+  static constexpr double neglected[] = {1.0 / 2, 3.0 / 16, 5.0 / 64, 35.0 / 128, 63.0 / 256};
+
+  static constexpr double error() {
+    double bound = 1.001 * neglected[steps];
+    for (int k = 0; k <= steps; ++k) bound *= range;
+    return bound;
+  }
+};
+
+// y (c0 + c1 e + c2 e^2 + ...) = 1 / sqrt(a) for an estimate y, with e = 1 - a y^2.
 template <class Real, int steps>
 inline Simd<Real> inverse_sqrt(Simd<Real> a) {
+  constexpr auto& c = InverseSqrtSeries<Real, steps>::c;
   Simd<Real> const y = Pack<Real>::inverse_sqrt_estimate(a);
   if constexpr (steps == 0) {
     return Pack<Real>::positive_part(y);
   } else {
     Simd<Real> const e = Real(1) - a * (y * y);
-    constexpr Real coefficients[] = {Real(1.0 / 2), Real(3.0 / 8), Real(5.0 / 16), Real(35.0 / 128)};
-    Simd<Real> series = Pack<Real>::splat(coefficients[steps - 1]);
-    for (int k = steps - 2; k >= 0; --k) series = series * e + coefficients[k];
-    return Pack<Real>::positive_part(y + y * e * series);
+    Simd<Real> series = Pack<Real>::splat(Real(c[steps]));
+    for (int k = steps - 1; k >= 0; --k) series = series * e + Real(c[k]);
+    return Pack<Real>::positive_part(y * series);
   }
-}
-
-// First term left out of the series above, with |e| <= 2 (estimate error).
-template <class Real>
-constexpr double inverse_sqrt_error(int steps) {
-  constexpr double coefficients[] = {1.0 / 2, 3.0 / 8, 5.0 / 16, 35.0 / 128, 63.0 / 256};
-  double error = 1.001 * coefficients[steps];
-  for (int k = 0; k <= steps; ++k) error *= 2.0 * Pack<Real>::estimate_error;
-  return error;
 }
 
 template <class Real>
@@ -107,7 +114,7 @@ struct PairLoop {
   static constexpr int lanes = Pack<Real>::lanes;
   static constexpr int n_coordinates = coordinate_count<Real>;
   static constexpr int n_source = n_coordinates + (Kernel::has_normal ? 6 : 3);
-  static constexpr int groups_at_once = 2;     // independent target registers
+  static constexpr int groups_at_once = Pack<Real>::groups_at_once;
   static constexpr long sources_at_once = 256;  // summed in Real before they are added in double
 
   static Vector inverse_distance(Vec3<Vector> const& r) {
@@ -156,25 +163,34 @@ struct PairLoop {
     }
   }
 
-  // `groups` lane groups of rows against all columns; reaction [n_column, 3] registers.
+  // `groups` lane groups of rows against all columns; reaction [n_column, 3] registers. Distances are computed one
+  // column ahead, which gives the processor two independent strands of work.
   template <int groups>
   static void add_both_ways_tile(Real const* rows, Real const* columns, long n_column, double* row_velocity,
                                  Vec3<Vector>* reaction) {
     auto const x = coordinates<groups>(rows, n_source * lanes);
-    Vec3<Vector> u[groups];
+    Vec3<Vector> u[groups], r_next[groups];
+    Vector s_next[groups];
+    for (int i = 0; i < groups; ++i) {
+      r_next[i] = x.of[i].minus(columns);
+      s_next[i] = inverse_distance(r_next[i]);
+    }
     for (long j = 0; j < n_column; ++j) {
       Real const* const column = columns + j * n_source;
+      Real const* const next = column + n_source;
       Vec3<Vector> const q = splat(column + n_coordinates);
       Vec3<Vector> n{};
       if constexpr (Kernel::has_normal) n = splat(column + n_coordinates + 3);
       Vec3<Vector> back = reaction[j];
       for (int i = 0; i < groups; ++i) {
+        Vec3<Vector> const r = r_next[i];
+        Vector const s = s_next[i];
+        r_next[i] = x.of[i].minus(next);
+        s_next[i] = inverse_distance(r_next[i]);
         Real const* const row = rows + (i * n_source + n_coordinates) * lanes;
         Vec3<Vector> const q_row = load(row);
         Vec3<Vector> n_row{};
         if constexpr (Kernel::has_normal) n_row = load(row + 3 * lanes);
-        Vec3<Vector> const r = x.of[i].minus(column);
-        Vector const s = inverse_distance(r);
         u[i] += Kernel::template shape<Vector>(r, s, q, n);
         if constexpr (Kernel::parity > 0)
           back += Kernel::template shape<Vector>(r, s, q_row, n_row);
@@ -192,7 +208,8 @@ struct PairLoop {
     for (long j = 0; j < n_column; ++j) reaction[j] = {};
     long g = 0;
     for (; g + groups_at_once <= n_group; g += groups_at_once)
-      add_both_ways_tile<groups_at_once>(rows + g * n_source * lanes, columns, n_column, row_velocity + g * 3 * lanes, reaction);
+      add_both_ways_tile<groups_at_once>(rows + g * n_source * lanes, columns, n_column, row_velocity + g * 3 * lanes,
+                                         reaction);
     for (; g < n_group; ++g)
       add_both_ways_tile<1>(rows + g * n_source * lanes, columns, n_column, row_velocity + g * 3 * lanes, reaction);
     for (long j = 0; j < n_column; j += lanes) {
@@ -210,7 +227,7 @@ struct PairLoop {
 template <class Kernel, class Real, int steps>
 PairSums<Real> pair_sums() {
   using Loop = PairLoop<Kernel, Real, steps>;
-  return {Pack<Real>::lanes, steps, inverse_sqrt_error<Real>(steps), Loop::add_one_way, Loop::add_both_ways};
+  return {Pack<Real>::lanes, steps, InverseSqrtSeries<Real, steps>::error(), Loop::add_one_way, Loop::add_both_ways};
 }
 
 template <class Kernel, class Real, int... steps>

@@ -25,7 +25,7 @@ struct PairSums {
 
   // Rows act on columns and columns on rows; no point may be in both.
   //   rows [n_group] lane groups of sources, columns [n_column] records of sources
-  //   n_column is a multiple of lanes, at most max_column
+  //   n_column is a multiple of lanes, at most max_column; one record behind the last is read, and not used
   //   row_velocity [n_group, 3, lanes], column_velocity [n_column / lanes, 3, lanes], both added to
   void (*add_both_ways)(Real const* rows, long n_group, Real const* columns, long n_column, double* row_velocity,
                         double* column_velocity) = nullptr;

@@ -7,6 +7,7 @@ namespace {
 
 // Vector registers of AVX2: four doubles or eight floats. Operators are those of the compiler's vector
 // types.
+// groups_at_once registers of targets are worked on together: as many as the register file holds.
 template <class Real>
 struct Pack;
 
@@ -14,6 +15,7 @@ template <>
 struct Pack<double> {
   using Vector = double __attribute__((vector_size(32)));
   static constexpr int lanes = 4;
+  static constexpr int groups_at_once = 1;
   static Vector splat(double a) { return _mm256_set1_pd(a); }
   // a where it is positive; 0 where it is negative or not a number.
   static Vector positive_part(Vector a) { return _mm256_max_pd(a, _mm256_setzero_pd()); }
@@ -27,6 +29,7 @@ template <>
 struct Pack<float> {
   using Vector = float __attribute__((vector_size(32)));
   static constexpr int lanes = 8;
+  static constexpr int groups_at_once = 1;
   static Vector splat(float a) { return _mm256_set1_ps(a); }
   static Vector positive_part(Vector a) { return _mm256_max_ps(a, _mm256_setzero_ps()); }
   static Vector inverse_sqrt_estimate(Vector a) { return _mm256_rsqrt_ps(a); }
