@@ -5,6 +5,7 @@
 #include "io/scene.hpp"
 #include "io/trajectory.hpp"
 
+#include <csignal>
 #include <fmt/format.h>
 #include <fstream>
 #include <memory>
@@ -54,12 +55,17 @@ void resume(ResumeOptions const& options) {
                options.folder, time);
     return;
   }
-  auto trajectory = TrajectoryWriter::resume(options.folder);
-  Simulation simulation(scene);
-  if (has_started) simulation.restore(time, reader.restart());
-  else store_state(simulation, trajectory);
-  simulate(simulation, trajectory, options.folder);
+  int signal = 0;
+  {
+    auto trajectory = TrajectoryWriter::resume(options.folder);
+    Simulation simulation(scene);
+    if (has_started) simulation.restore(time, reader.restart());
+    else store_state(simulation, trajectory);
+    signal = simulate(simulation, trajectory, options.folder);
+  }
+  if (signal != 0) std::raise(signal);
   fmt::print("{}/trajectory.h5\n", options.folder);
+  draw_last_state(scene, options.folder);
 }
 
 }  // namespace

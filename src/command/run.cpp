@@ -5,6 +5,7 @@
 #include "io/trajectory.hpp"
 #include "io/versions.hpp"
 
+#include <csignal>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -23,12 +24,17 @@ void run(RunOptions const& options) {
   Scene const scene = read_scene(options.scene, options.overrides);
   std::filesystem::path folder = options.folder;
   if (folder.empty()) folder = std::filesystem::path(options.scene).stem().string() + "-results";
-  auto trajectory = TrajectoryWriter::create(folder, {scene.text, std::filesystem::absolute(options.scene).string(),
-                                                      scene.overrides, all_versions(), scene.run.seed});
-  Simulation simulation(scene);
-  store_state(simulation, trajectory);
-  simulate(simulation, trajectory, folder);
+  int signal = 0;
+  {
+    auto trajectory = TrajectoryWriter::create(folder, {scene.text, std::filesystem::absolute(options.scene).string(),
+                                                        scene.overrides, all_versions(), scene.run.seed});
+    Simulation simulation(scene);
+    store_state(simulation, trajectory);
+    signal = simulate(simulation, trajectory, folder);
+  }
+  if (signal != 0) std::raise(signal);
   fmt::print("{}\n", (folder / "trajectory.h5").string());
+  draw_last_state(scene, folder);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "command/simulate.hpp"
 
 #include "base/error.hpp"
+#include "command/plane_flow.hpp"
 #include "command/progress.hpp"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ void store_state(Simulation const& simulation, TrajectoryWriter& trajectory) {
   trajectory.append({simulation.time(), simulation.frame()}, simulation.restart());
 }
 
-void simulate(Simulation& simulation, TrajectoryWriter& trajectory, std::filesystem::path const& folder) {
+int simulate(Simulation& simulation, TrajectoryWriter& trajectory, std::filesystem::path const& folder) {
   auto const& scene = simulation.scene();
   double const end_time = scene.run.end_time;
   std::signal(SIGINT, note_signal);
@@ -57,11 +58,26 @@ void simulate(Simulation& simulation, TrajectoryWriter& trajectory, std::filesys
     if (int const signal = caught_signal) {
       progress.finish();
       fmt::print(stderr, "stopped at t = {:g} s; go on with: asterflow resume {}\n", stored, folder.string());
-      std::raise(signal);
+      return signal;
     }
   }
   progress.finish();
   fmt::print(stderr, "{} steps in {}\n", progress.steps(), duration_words(progress.seconds()));
+  return 0;
+}
+
+void draw_last_state(Scene const& scene, std::filesystem::path const& folder) {
+  if (!scene.output.picture || scene.run.interactions == Interactions::local) return;
+  TrajectoryReader const trajectory(folder);
+  Frame const frame = trajectory.frame(trajectory.times().size() - 1);
+  if (frame.time == 0.0) return;
+  PlanePoints grid = surrounding(scene, frame, Plane{});
+  auto const count = [&](int k) {
+    return std::clamp(int((grid.upper[k] - grid.lower[k]) / scene.output.picture_spacing) + 1, 20, 2000);
+  };
+  grid.n_first = count(0), grid.n_second = count(1);
+  for (auto const& path : write_plane_flow(plane_flow(scene, frame, grid), frame, folder / "final"))
+    fmt::print("{}\n", path.string());
 }
 
 }  // namespace asterflow

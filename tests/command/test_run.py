@@ -1,0 +1,296 @@
+"""asterflow run, resume, check, mobility, flow and export: results, exact resuming, and every kind of bad input."""
+
+import json
+import math
+import os
+import resource
+import subprocess
+import time
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from program import ASTERFLOW, CommandTest
+
+BALL = """
+[fluid]
+viscosity = 2.0
+[[body]]
+name = "ball"
+shape = "sphere"
+radius = 1.5
+position = [0.5, 0.0, 0.0]
+force = [3.0, 0.0, 0.0]
+[run]
+interactions = "open"
+accuracy = 1e-3
+end_time = 2.0
+[output]
+interval = 0.5
+picture = false
+"""
+
+# A body with fibers that grow and shrink.
+ASTER = """
+[[body]]
+name = "core"
+shape = "sphere"
+radius = 1.0
+force = [2.0, 0.0, 0.0]
+[[aster]]
+body = "core"
+position = [0.0, 1.0, 0.0]
+count = 5
+length = 2.0
+growing = true
+[dynamic_instability]
+catastrophe_rate = 1.0
+[run]
+interactions = "local"
+accuracy = 1e-3
+end_time = 3.0
+[output]
+interval = 0.25
+picture = false
+"""
+
+CELL = BALL.replace('interactions = "open"', 'interactions = "confined"') + """
+[periphery]
+shape = "sphere"
+radius = 4.0
+"""
+
+
+def contents(path):
+    """All datasets of a trajectory but its header."""
+    arrays = {}
+    with h5py.File(path) as file:
+        file.visititems(lambda name, item: arrays.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return {name: array for name, array in arrays.items() if not name.startswith("header")}
+
+
+class SceneTest(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.folder / "scene.toml"
+        self.out = self.folder / "out"
+        self.trajectory = self.out / "trajectory.h5"
+
+    def run_scene(self, text, *options, **more):
+        self.scene.write_text(text)
+        return self.expect_done("run", self.scene, "-o", self.out, *options, **more)
+
+    def refused(self, text, *options, names=()):
+        """Both check and run refuse the scene; nothing is written."""
+        self.scene.write_text(text)
+        self.expect_refusal("check", self.scene, *options, names=names)
+        self.expect_refusal("run", self.scene, "-o", self.out, *options, names=names)
+        self.assertFalse(self.out.exists())
+
+
+class Run(SceneTest):
+    def test_a_sphere_moves_as_stokes_says(self):
+        self.run_scene(BALL)
+        with h5py.File(self.trajectory) as file:
+            np.testing.assert_allclose(file["time"], [0, 0.5, 1, 1.5, 2])
+            moved = file["frames/000004/body/position"][0, 0] - 0.5
+            self.assertEqual(file["header/scene"][()].decode(), BALL)
+        self.assertAlmostEqual(moved, 2.0 * 3.0 / (6 * math.pi * 2.0 * 1.5), delta=1e-5)
+
+    def test_overrides_count(self):
+        self.run_scene(BALL, "--set", "body.ball.force=[0, 6, 0]", "--set", "run.end_time=0.5")
+        with h5py.File(self.trajectory) as file:
+            self.assertEqual(file["frames/000001/body/position"][0, 0], 0.5)
+            self.assertGreater(file["frames/000001/body/position"][0, 1], 0.01)
+            self.assertIn("run.end_time=0.5", file["header/overrides"][()].decode())
+
+    def test_a_resumed_run_equals_one_without_interruption(self):
+        self.run_scene(ASTER)
+        whole = contents(self.trajectory)
+        self.out = self.folder / "parts"
+        self.run_scene(ASTER, "--set", "run.end_time=1")
+        self.expect_done("resume", self.out, "--set", "run.end_time=3")
+        parts = contents(self.out / "trajectory.h5")
+        self.assertEqual(whole.keys(), parts.keys())
+        for name in whole:
+            self.assertEqual(np.asarray(whole[name]).tobytes(), np.asarray(parts[name]).tobytes(), name)
+
+    def test_a_killed_run_goes_on_exactly(self):
+        self.run_scene(ASTER)
+        whole = contents(self.trajectory)
+        self.out = self.folder / "killed"
+        process = subprocess.Popen([ASTERFLOW, "run", self.scene, "-o", self.out], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        while not (self.out / "trajectory.h5").exists() and process.poll() is None:
+            time.sleep(0.002)
+        time.sleep(0.1)
+        process.kill()
+        process.wait()
+        self.expect_done("resume", self.out)
+        parts = contents(self.out / "trajectory.h5")
+        for name in whole:
+            self.assertEqual(np.asarray(whole[name]).tobytes(), np.asarray(parts[name]).tobytes(), name)
+
+    def test_an_interrupted_run_closes_its_file_and_goes_on(self):
+        self.scene.write_text(ASTER)
+        process = subprocess.Popen([ASTERFLOW, "run", self.scene, "-o", self.out, "--set", "run.end_time=1000"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        while not self.trajectory.exists() and process.poll() is None:
+            time.sleep(0.01)
+        time.sleep(0.5)
+        process.terminate()
+        self.assertIn("asterflow resume", process.communicate(timeout=60)[1])
+        self.assertEqual([path.name for path in self.out.iterdir()], ["trajectory.h5"])
+
+    def test_a_complete_run_is_left_alone(self):
+        self.run_scene(BALL, "--set", "run.end_time=0.5")
+        before = self.trajectory.read_bytes()
+        self.assertIn("complete", self.expect_done("resume", self.out).stderr)
+        self.assertEqual(self.trajectory.read_bytes(), before)
+
+    def test_a_failed_solve_stores_the_last_state(self):
+        self.scene.write_text(CELL)
+        result = subprocess.run([ASTERFLOW, "run", self.scene, "-o", self.out, "--set", "run.gmres_max_iterations=1",
+                                 "--set", "run.gmres_tolerance=1e-12"], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("GMRES", result.stderr)
+        self.assertIn("asterflow flow", result.stderr)
+        with h5py.File(self.trajectory) as file:
+            self.assertGreaterEqual(len(file["time"]), 1)
+
+
+class BadRun(SceneTest):
+    def test_refuses_a_missing_scene(self):
+        for command in ("run", "check", "mobility", "drag"):
+            self.expect_refusal(command, self.scene, names=[self.scene, "No such file"])
+
+    def test_refuses_what_is_not_toml(self):
+        self.refused("[fluid\nviscosity = 1", names=["scene.toml", "line 1"])
+
+    def test_refuses_bad_values_by_place(self):
+        cases = {
+            "body.0.radius=-1": ["[[body]] #1", "radius = -1", "must be positive (um)"],
+            "body.0.radius=nan": ["radius", "finite"],
+            "body.0.radius='big'": ["radius", "must be a number"],
+            "body.0.raduis=1": ["unknown key", "did you mean", "radius"],
+            "fluid.viscosity=0": ["[fluid]", "viscosity = 0", "must be positive"],
+            "body.0.order=3": ["order = 3", "from 4 to 96"],
+            "body.0.shape=cube": ["shape", "sphere, ellipsoid, revolution"],
+            "fiber.0.nodes=1000": ["[[fiber]] #1", "nodes = 1000"],
+            "fiber.0.length=-2": ["length = -2"],
+            "runn.accuracy=1": ["unknown key", "run"],
+            "run.interactions=confined": ["needs a [periphery]"],
+            "run.evaluator=magic": ["evaluator", "auto"],
+            "run.seed=-1": ["seed"],
+        }
+        for override, names in cases.items():
+            with self.subTest(override):
+                self.refused(BALL, "--set", override, names=["scene.toml", *names])
+
+    def test_refuses_things_in_wrong_places(self):
+        self.refused(CELL, "--set", "body.0.position=[3, 0, 0]", names=["[[body]] #1", "outside the periphery"])
+        fiber = '[[fiber]]\nposition = [0, 0, 3]\ndirection = [0, 0, 1]\nlength = 2\n'
+        self.refused(CELL + fiber, names=["[[fiber]] #1", "outside the periphery"])
+        other = '[[body]]\nshape = "sphere"\nradius = 1\nposition = [2, 0, 0]\n'
+        self.refused(BALL + other, names=["[[body]] #2", "overlaps", "ball"])
+
+    def test_refuses_output_that_cannot_be_written(self):
+        self.scene.write_text(BALL)
+        self.expect_refusal("run", self.scene, "-o", "/proc/asterflow", names=["/proc/asterflow"])
+        (self.folder / "file").write_text("precious")
+        self.expect_refusal("run", self.scene, "-o", self.folder / "file", names=["is a file"])
+        self.expect_refusal("run", self.scene, "-o", self.folder, names=["is not empty"])
+        self.assertEqual((self.folder / "file").read_text(), "precious")
+
+    def test_refuses_to_overwrite_a_trajectory(self):
+        self.run_scene(BALL, "--set", "run.end_time=0.5")
+        before = self.trajectory.read_bytes()
+        self.expect_refusal("run", self.scene, "-o", self.out, names=["asterflow resume"])
+        self.assertEqual(self.trajectory.read_bytes(), before)
+
+    def test_refuses_to_resume_a_changed_scene(self):
+        self.run_scene(BALL, "--set", "run.end_time=0.5")
+        before = self.trajectory.read_bytes()
+        self.scene.write_text(BALL.replace("radius = 1.5", "radius = 1.6"))
+        extend = ("--set", "run.end_time=1")
+        self.expect_refusal("resume", self.out, *extend, names=["scene.toml", "has changed"])
+        self.expect_refusal("resume", self.out, "--set", "body.0.radius=2", names=["body.0.radius=2", "run.end_time"])
+        self.assertEqual(self.trajectory.read_bytes(), before)
+        self.scene.unlink()
+        self.expect_done("resume", self.out, *extend)
+
+    def test_refuses_to_resume_what_is_not_a_trajectory(self):
+        self.expect_refusal("resume", self.folder, names=["trajectory.h5"])
+        (self.folder / "trajectory.h5").write_text("text")
+        self.expect_refusal("resume", self.folder, names=["trajectory.h5", "not an HDF5 file"])
+
+    def test_a_full_disk_is_one_line(self):
+        self.scene.write_text(BALL)
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (150_000, 150_000))
+
+        self.expect_refusal("run", self.scene, "-o", self.out, "--set", "output.interval=0.01", preexec_fn=limit,
+                            names=["cannot be written", "asterflow resume"])
+        self.expect_done("resume", self.out)
+
+
+class Results(SceneTest):
+    def test_mobility_of_a_sphere(self):
+        self.scene.write_text(BALL)
+        result = json.loads(self.expect_done("mobility", self.scene).stdout)
+        body = result["bodies"][0]
+        self.assertEqual(body["name"], "ball")
+        drag, torque = 6 * math.pi * 2 * 1.5, 8 * math.pi * 2 * 1.5**3
+        exact = np.diag([drag] * 3 + [torque] * 3)
+        np.testing.assert_allclose(body["resistance"], exact, atol=1e-5 * drag)
+        np.testing.assert_allclose(body["mobility"], np.linalg.inv(exact), atol=1e-5 / drag)
+
+    def test_check_says_what_will_be_modelled(self):
+        self.scene.write_text(ASTER)
+        text = self.expect_done("check", self.scene).stdout
+        for word in ("valid", "core", "fibers", "5", "interactions", "local", "unknowns", "evaluators", "first step"):
+            self.assertIn(word, text)
+
+    def test_flow_around_a_sphere_in_a_cell(self):
+        self.run_scene(CELL, "--set", "run.end_time=0.5")
+        result = self.expect_done("flow", self.out, "--plane", "z=0", "--grid", "21x11", "--window", "-4", "4", "-2", "2")
+        written = result.stdout.split()
+        with h5py.File(written[0]) as file:
+            velocity = file["velocity"][:]
+            self.assertEqual(velocity.shape, (11, 21, 3))
+            inside = file["body_distance"][:] < 0
+            speed = 3 / (6 * math.pi * 2 * 1.5)
+            self.assertTrue((velocity[inside][:, 0] < speed).all())  # the cell holds it back
+            self.assertTrue((velocity[inside][:, 0] > 0.1 * speed).all())
+            fluid = (file["body_distance"][:] > 0) & (file["periphery_distance"][:] < 0)
+            self.assertTrue((np.linalg.norm(velocity[fluid], axis=1) < speed).all())
+        self.assertTrue(written[1].endswith(".vts"))
+
+    def test_pictures_need_python_but_numbers_do_not(self):
+        self.run_scene(CELL, "--set", "run.end_time=0.5")
+        without = os.environ | {"ASTERFLOW_PYTHON": "/absent/python3"}
+        result = self.expect_done("flow", self.out, "--grid", "11x11", env=without)
+        self.assertIn("no picture", result.stderr)
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1)
+
+    def test_flow_refuses_what_it_does_not_know(self):
+        self.run_scene(BALL, "--set", "run.end_time=0.5")
+        self.expect_refusal("flow", self.out, "--plane", "w=0", names=["--plane", "z=VALUE"])
+        self.expect_refusal("flow", self.out, "--grid", "10", names=["--grid"])
+        self.expect_refusal("flow", self.out, "--time", "0", names=["later --time"])
+        self.expect_refusal("flow", self.folder / "absent", names=["trajectory.h5"])
+
+    def test_export_writes_every_state(self):
+        self.run_scene(ASTER, "--set", "run.end_time=0.5")
+        collection = self.expect_done("export", self.out).stdout.strip()
+        text = Path(collection).read_text()
+        self.assertEqual(text.count("fibers_"), 3)
+        self.assertEqual(text.count("bodies_"), 3)
+        self.assertIn(b"Lines", (self.out / "paraview" / "fibers_000000.vtp").read_bytes())
+
+
+if __name__ == "__main__":
+    unittest.main()
