@@ -46,7 +46,7 @@ struct ScatteringOptions {
   double tolerance = 1e-6;  // relative residual of z
   int max_iterations = 200;
   int coarsening = 2;             // a fiber's nodes over its nodes in the preconditioner; 0: no preconditioner
-  double inner_tolerance = 1e-2;  // of the coarse solve
+  double inner_tolerance = 0.2;   // of the coarse solve
   int inner_max_iterations = 40;
 };
 
