@@ -60,6 +60,9 @@ void show(DragPoint const& point, double fraction, Timer const& timer) {
 
 void study(DragOptions const& options) {
   Scene const scene = read_scene(options.scene, options.overrides);
+  for (Interactions level : scene.drag.levels)
+    if (level == Interactions::confined && !scene.periphery)
+      throw SceneError(options.scene + ": [drag]: levels: confined needs a [periphery]");
   fs::path const folder = prepare_folder(options);
   fs::path const table = folder / "drag.csv", picture = folder / "drag.png";
   std::vector<DragPoint> points;

@@ -17,15 +17,14 @@ Scene read_all(Table root) {
   auto const periphery = root.find_table("periphery");
   auto const background = root.find_table("background");
   auto const instability = root.find_table("dynamic_instability");
-  SceneTables const tables{root.tables("body"), root.tables("fiber"), root.tables("aster")};
-  Table const fluid = root.table("fluid"), run = root.table("run"), output = root.table("output"),
-              drag = root.table("drag");
+  SceneTables const tables{root.tables("body"), root.tables("fiber"), root.tables("aster"), root.table("drag")};
+  Table const fluid = root.table("fluid"), run = root.table("run"), output = root.table("output");
   root.finish();
 
   scene.fluid = read_fluid(fluid);
   scene.run = read_run(run, periphery.has_value());
   scene.output = read_output(output);
-  scene.drag = read_drag(drag);
+  scene.drag = read_drag(tables.drag);
   if (periphery) scene.periphery = read_periphery(*periphery);
   if (background) scene.background = read_background(*background);
   if (instability) scene.dynamic_instability = read_dynamic_instability(*instability);

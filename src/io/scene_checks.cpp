@@ -78,6 +78,7 @@ void check_names(SceneTables const& tables, Scene const& scene) {
     check_body_reference(tables.fibers[i], scene, scene.fibers[i].body);
   for (std::size_t i = 0; i < scene.asters.size(); ++i)
     check_body_reference(tables.asters[i], scene, scene.asters[i].body);
+  check_body_reference(tables.drag, scene, scene.drag.body);
 }
 
 void check_growth(SceneTables const& tables, Scene const& scene) {

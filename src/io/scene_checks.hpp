@@ -11,6 +11,7 @@ namespace asterflow {
 // The tables that the specs of a scene were read from, in the same order.
 struct SceneTables {
   std::vector<Table> bodies, fibers, asters;
+  Table drag;
 };
 
 void check_names(SceneTables const& tables, Scene const& scene);

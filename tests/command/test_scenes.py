@@ -1,0 +1,56 @@
+"""Every scene of the repository is valid and runs, shortened; so does the drag study."""
+
+import csv
+import unittest
+from pathlib import Path
+
+import h5py
+
+from program import CommandTest
+
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
+
+
+def shortened(scene, **settings):
+    """--set options that make a scene run in seconds."""
+    settings = {"run.accuracy": 1e-2, "run.end_time": 0.03, "output.interval": 0.02, "output.picture": "false"} | settings
+    n_aster = scene.read_text().count("[[aster]]")
+    settings |= {f"aster.{i}.count": 4 for i in range(n_aster)}
+    return [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+
+
+class Scenes(CommandTest):
+    def test_every_scene_runs(self):
+        scenes = sorted(SCENES.glob("*.toml"))
+        self.assertGreater(len(scenes), 3)
+        for scene in scenes:
+            with self.subTest(scene.name):
+                self.expect_done("check", scene, "--quick")
+                out = self.folder / scene.stem
+                self.expect_done("run", scene, "-o", out, *shortened(scene))
+                with h5py.File(out / "trajectory.h5") as file:
+                    self.assertEqual(len(file["time"]), 3)
+
+    def test_the_drag_study_writes_a_table_and_a_picture(self):
+        out = self.folder / "drag"
+        scene = SCENES / "figure2.toml"
+        study = {"drag.fiber_counts": "[0, 6]", "drag.settling_time": 0, "drag.duration": 0.02, "drag.samples": 1}
+        self.expect_done("drag", scene, "-o", out, *shortened(scene), *[w for k, v in study.items() for w in ("--set", f"{k}={v}")])
+        with open(out / "drag.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([(row["level"], row["fibers"]) for row in rows],
+                         [(level, n) for level in ("local", "open", "confined") for n in ("0", "6")])
+        drag = {(row["level"], row["fibers"]): float(row["translation_drag"]) for row in rows}
+        self.assertAlmostEqual(drag["local", "0"], 1.0, delta=1e-3)
+        self.assertAlmostEqual(drag["open", "0"], 1.0, delta=1e-2)
+        self.assertGreater(drag["confined", "0"], 1.5)
+        self.expect_refusal("drag", scene, "-o", out, names=["drag.csv", "is there already"])
+
+    def test_the_drag_study_refuses_what_it_cannot_study(self):
+        scene = SCENES / "sphere.toml"
+        self.expect_refusal("drag", scene, "-o", self.folder / "drag", names=["[drag]", "periphery"])
+        self.expect_refusal("drag", SCENES / "figure2.toml", "--set", "drag.body=pcn", names=["[drag]", "pcn", "pnc"])
+
+
+if __name__ == "__main__":
+    unittest.main()
