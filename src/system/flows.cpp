@@ -1,5 +1,7 @@
 #include "system/flows.hpp"
 
+#include "system/scattering.hpp"
+
 #include <algorithm>
 
 namespace asterflow {
@@ -58,7 +60,8 @@ SceneRadiation make_radiation(Scene const& scene, SceneFlows const& flows, bool 
                                        RadiationOptions{scene.fluid.viscosity, run.evaluator, accuracy});
   };
   radiation.fine = make(flows, run.evaluator_accuracy);
-  if (has_fibers) radiation.coarse = make(make_flows(scene, Resolution::coarse), 1e-3);
+  if (has_fibers && run.gmres_tolerance < loose_tolerance)
+    radiation.coarse = make(make_flows(scene, Resolution::coarse), 1e-3);
   return radiation;
 }
 

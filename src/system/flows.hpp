@@ -18,7 +18,7 @@ SceneFlows make_flows(Scene const& scene, Resolution resolution);
 // How the objects of a scene exchange their flows; nothing in a `local` scene.
 struct SceneRadiation {
   std::unique_ptr<Radiation> fine;
-  std::unique_ptr<Radiation> coarse;  // for the preconditioner; only with fibers
+  std::unique_ptr<Radiation> coarse;  // for the preconditioner; only with fibers and a tight tolerance
 };
 
 SceneRadiation make_radiation(Scene const& scene, SceneFlows const& flows, bool has_fibers);

@@ -59,6 +59,9 @@ struct ScatteringSolution {
   double coarse_seconds = 0.0;  // wall time of the preconditioner
 };
 
+// Above this tolerance the coarse solves cost more than the iterations that they save (bench_step).
+inline constexpr double loose_tolerance = 1e-5;
+
 class Scattering {
  public:
   // The problem at the geometry that fibers and bodies have now. `radiation` and `coarse` (may be null) must have been
