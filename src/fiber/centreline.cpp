@@ -67,20 +67,35 @@ double squared_curvature(Centreline const& c) {
 
 void sample(Centreline const& c, ConstVector s, Points positions, Points tangents) {
   Series const series = series_of(c);
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    double const inside = std::min(s[i], c.length), beyond = s[i] - inside;
-    double const x = 2 * inside / c.length - 1;
-    double before = 0.0, p = 1.0;
-    Vec3d tangent, position;
-    for (int k = 0; k <= series.n_tangent; ++k) {
-      tangent += p * series.tangent[k];
-      position += p * series.position[k];
-      double const next = ((2 * k + 1) * x * p - k * before) / (k + 1);
-      before = p;
-      p = next;
+  constexpr std::size_t block = 16;  // points at a time, one Legendre recurrence for all of them
+  for (std::size_t first = 0; first < s.size(); first += block) {
+    std::size_t const n = std::min(block, s.size() - first);
+    std::array<double, block> x{}, before{}, p, beyond{};
+    std::array<std::array<double, block>, 3> tangent{}, position{};
+    p.fill(1.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      double const inside = std::min(s[first + i], c.length);
+      beyond[i] = s[first + i] - inside;
+      x[i] = 2 * inside / c.length - 1;
     }
-    if (!positions.empty()) positions[i] = c.minus_end + c.length * position + beyond * tangent;
-    if (!tangents.empty()) tangents[i] = tangent;
+    for (int k = 0; k <= series.n_tangent; ++k) {
+      Vec3d const t = series.tangent[k], q = series.position[k];
+      double const forward = (2 * k + 1.0) / (k + 1), backward = double(k) / (k + 1);
+      for (std::size_t i = 0; i < block; ++i) {
+        for (int j = 0; j < 3; ++j) {
+          tangent[j][i] += p[i] * t[j];
+          position[j][i] += p[i] * q[j];
+        }
+        double const next = forward * x[i] * p[i] - backward * before[i];
+        before[i] = p[i];
+        p[i] = next;
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      Vec3d const t{tangent[0][i], tangent[1][i], tangent[2][i]}, q{position[0][i], position[1][i], position[2][i]};
+      if (!positions.empty()) positions[first + i] = c.minus_end + c.length * q + beyond[i] * t;
+      if (!tangents.empty()) tangents[first + i] = t;
+    }
   }
 }
 

@@ -49,9 +49,9 @@ void DynamicInstability::advance(Tip& tip, double dt, TipSurroundings surroundin
     double const rate = tip.is_growing ? spec_.catastrophe_rate * surroundings.catastrophe_factor : spec_.rescue_rate;
     double const speed = tip.is_growing ? spec_.growth_speed * surroundings.growth_factor : -spec_.shrinkage_speed;
     double const until_switch = waiting_time(missing, rate);
-    double const until_end = tip.is_growing
-                                 ? waiting_time(std::max(surroundings.clearance, 0.0), speed + surroundings.approach_speed)
-                                 : (tip.length - spec_.minimal_length) / spec_.shrinkage_speed;
+    double const until_end =
+        tip.is_growing ? waiting_time(std::max(surroundings.clearance, 0.0), speed + surroundings.approach_speed)
+                       : (tip.length - spec_.minimal_length) / spec_.shrinkage_speed;
     double const interval = std::min({left, until_switch, until_end});
     tip.length += speed * interval;
     surroundings.clearance -= (speed + surroundings.approach_speed) * interval;

@@ -20,8 +20,8 @@ class Fibers;
 // What a growing plus end meets during a step.
 struct TipSurroundings {
   double clearance = std::numeric_limits<double>::infinity();  // um, from the tip to the cortex along the fiber
-  double approach_speed = 0.0;    // um/s, at which the material of the tip itself moves towards the cortex
-  double growth_factor = 1.0;     // of the growth speed, >= 0
+  double approach_speed = 0.0;      // um/s, at which the material of the tip itself moves towards the cortex
+  double growth_factor = 1.0;       // of the growth speed, >= 0
   double catastrophe_factor = 1.0;  // of the catastrophe rate, >= 0
 };
 
@@ -29,12 +29,12 @@ class DynamicInstability {
  public:
   // Plus end of one fiber. Everything that a restart needs.
   struct Tip {
-    std::size_t fiber = 0;     // its index
-    double length = 0.0;       // um
+    std::size_t fiber = 0;  // its index
+    double length = 0.0;    // um
     bool is_growing = true;
-    double hazard = 0.0;       // integral of the rate of the next event since the event before
-    std::uint64_t event = 0;   // events so far
-    bool is_newborn = false;   // renucleated during the step
+    double hazard = 0.0;      // integral of the rate of the next event since the event before
+    std::uint64_t event = 0;  // events so far
+    bool is_newborn = false;  // renucleated during the step
   };
 
   DynamicInstability(DynamicInstabilitySpec const& spec, std::uint64_t seed) : spec_(spec), seed_(seed) {}

@@ -10,7 +10,8 @@
 
 namespace asterflow {
 
-FiberBasis::FiberBasis(int n) : n_node(n), n_tangent(n - n / 4), gauss(gauss_rule(n)), lobatto(lobatto_rule(n_tangent)) {
+FiberBasis::FiberBasis(int n)
+    : n_node(n), n_tangent(n - n / 4), gauss(gauss_rule(n)), lobatto(lobatto_rule(n_tangent)) {
   ASTERFLOW_REQUIRE(n >= min_fiber_nodes && n <= max_fiber_nodes);
   transform = legendre_transform(lobatto);
   tangent = legendre_values(gauss.nodes, n_tangent) * transform;

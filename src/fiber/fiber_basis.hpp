@@ -15,14 +15,14 @@ struct FiberBasis {
   explicit FiberBasis(int n_node);
 
   int n_node, n_tangent;
-  UnitRule gauss;    // [n_node]    hydrodynamic nodes
-  UnitRule lobatto;  // [n_tangent] tangent nodes; the weights integrate a tangent from 0 to 1
-  Eigen::MatrixXd tangent;      // [n_node, n_tangent]    values at the tangent nodes -> at the hydrodynamic nodes
-  Eigen::MatrixXd position;     // [n_node, n_tangent]    ... -> integral from 0 to the hydrodynamic nodes
-  Eigen::MatrixXd derivative;   // [n_node, n_tangent]    ... -> d/d alpha at the hydrodynamic nodes
-  Eigen::MatrixXd bending;      // [n_tangent, n_tangent] integral of the product of two derivatives
-  Eigen::MatrixXd transform;    // [n_tangent, n_tangent] values -> Legendre coefficients
-  Eigen::MatrixXd remainder;    // [n_node, n_node]       values at the hydrodynamic nodes -> integral from there to 1
+  UnitRule gauss;              // [n_node]    hydrodynamic nodes
+  UnitRule lobatto;            // [n_tangent] tangent nodes; the weights integrate a tangent from 0 to 1
+  Eigen::MatrixXd tangent;     // [n_node, n_tangent]    values at the tangent nodes -> at the hydrodynamic nodes
+  Eigen::MatrixXd position;    // [n_node, n_tangent]    ... -> integral from 0 to the hydrodynamic nodes
+  Eigen::MatrixXd derivative;  // [n_node, n_tangent]    ... -> d/d alpha at the hydrodynamic nodes
+  Eigen::MatrixXd bending;     // [n_tangent, n_tangent] integral of the product of two derivatives
+  Eigen::MatrixXd transform;   // [n_tangent, n_tangent] values -> Legendre coefficients
+  Eigen::MatrixXd remainder;   // [n_node, n_node]       values at the hydrodynamic nodes -> integral from there to 1
 };
 
 // The basis of that many nodes; made once, kept for ever.

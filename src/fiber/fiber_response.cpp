@@ -96,16 +96,19 @@ void FiberResponse::set_motions(Eigen::Ref<Eigen::MatrixXd> motions) {
   for (int k = 0; k < first_rotation_; ++k) {
     Vec3d e;
     e[k] = 1.0;
-    column(k, [&](int) { return e; }, e);
+    column(
+        k, [&](int) { return e; }, e);
   }
   for (int k = first_rotation_; k < first_turn_; ++k) {  // axis t x n turns t towards n
     Vec3d const axis = k == first_rotation_ ? directions_[1] : -directions_[0];
-    column(k, [&](int i) { return cross(axis, nodes_[i] - minus_end_); }, cross(axis, plus_end_ - minus_end_));
+    column(
+        k, [&](int i) { return cross(axis, nodes_[i] - minus_end_); }, cross(axis, plus_end_ - minus_end_));
   }
   for (int k = first_turn_; k < n_unknown_; ++k) {
     int const direction = 2 + k - first_turn_, j = direction / 2;
     Vec3d const d = length_ * directions_[direction];
-    column(k, [&](int i) { return basis.position(i, j) * d; }, basis.lobatto.weights[j] * d);
+    column(
+        k, [&](int i) { return basis.position(i, j) * d; }, basis.lobatto.weights[j] * d);
   }
 }
 
@@ -131,7 +134,7 @@ void FiberResponse::add_elasticity(Eigen::Ref<Eigen::MatrixXd> matrix) const {
 // The rows of the rotations in int T dX_s . X_s ds. Only a force on an end makes them stiff; without one they are left
 // out, so that no torque appears on a free fiber.
 void FiberResponse::add_tension_of_rotations(Eigen::Ref<Eigen::MatrixXd> matrix) const {
-  bool const has_end_force = dot(step_.tip.force, step_.tip.force) > 0 || !step_.tip.stiffness.isZero(0.0);
+  bool const has_end_force = dot(step_.tip.force, step_.tip.force) > 0 || has_tip_spring();
   if (step_.tension.empty() || (step_.minus_end == MinusEnd::free && !has_end_force)) return;
   FiberBasis const& basis = *step_.basis;
   for (int k = first_rotation_; k < first_turn_; ++k) {
@@ -162,7 +165,8 @@ void FiberResponse::set_forcing(PointArray const& tangents, Eigen::Ref<Eigen::Ma
   for (int j = 1; j < m; ++j) {
     Vec3d moment;
     for (int k = 0; k < m; ++k) moment += step_.basis->bending(j, k) * (tangents[k] - tangents[j]);
-    for (int k = 0; k < 2; ++k) forcing[first_turn_ + 2 * (j - 1) + k] -= stiffness * dot(directions_[2 * j + k], moment);
+    for (int k = 0; k < 2; ++k)
+      forcing[first_turn_ + 2 * (j - 1) + k] -= stiffness * dot(directions_[2 * j + k], moment);
   }
 }
 
@@ -196,30 +200,48 @@ void FiberResponse::factorise(Centreline const& predicted) {
   llt.matrixL().solveInPlace(reduced_);
 }
 
-// Virtual work of the drag and of the spring at the plus end for the motion of the body.
+// Virtual work of the drag and of the spring at the plus end for the motion of the body; motions [3 n_node, 6], um.
 void FiberResponse::set_body_columns() {
   int const n = step_.basis->n_node;
-  reduced_.rightCols<6>().setZero();
-  for (int k = 0; k < 6 && step_.body; ++k) {
-    auto column = reduced_.col(3 * n + 1 + k);
+  auto columns = reduced_.rightCols<6>();
+  columns.setZero();
+  if (!step_.body) return;
+  Map motions = scratch<2>(3 * n, 6);
+  for (int k = 0; k < 6; ++k) {
     Vector6 const q = Vector6::Unit(k);
-    for (int i = 0; i < n; ++i)
-      column.noalias() += reduced_.middleCols<3>(3 * i) * (rate_ * to_eigen(body_motion(q, nodes_[i])));
-    column.noalias() += tip_motion_.transpose() * (step_.tip.stiffness * to_eigen(body_motion(q, plus_end_)));
+    for (int i = 0; i < n; ++i) motions.col(k).segment<3>(3 * i) = to_eigen(body_motion(q, nodes_[i]));
+    if (has_tip_spring())
+      columns.col(k) = tip_motion_.transpose() * (step_.tip.stiffness * to_eigen(body_motion(q, plus_end_)));
   }
+  columns.noalias() += rate_ * (reduced_.leftCols(3 * n) * motions);
 }
 
+// -load of unit motions of the body, all six at once.
 void FiberResponse::set_body_resistance() {
   body_resistance_.setZero();
   if (!step_.body) return;
   int const n = step_.basis->n_node;
-  std::array<Vec3d, max_fiber_nodes> const no_flow{};
+  Map part = scratch<2>(3 * n, 6);
+  part.noalias() = reduced_.leftCols(3 * n).transpose() * reduced_.rightCols<6>();
   for (int k = 0; k < 6; ++k) {
-    std::array<Vec3d, max_fiber_nodes> f{};
+    Vector6 const q = Vector6::Unit(k);
     Vector6 load = Vector6::Zero();
-    add_linear({no_flow.data(), static_cast<std::size_t>(n)}, Vector6::Unit(k), {f.data(), static_cast<std::size_t>(n)}, load);
+    for (int i = 0; i < n; ++i) {
+      Vec3d const drag_work = weights_[i] * drag(i, body_motion(q, nodes_[i]));
+      add_body_load(nodes_[i], rate_ * (to_vec3(part.col(k).segment<3>(3 * i)) - drag_work), load);
+    }
+    if (has_tip_spring()) add_spring_load(-reduced_.col(3 * n + 1 + k), q, load);
     body_resistance_.col(k) = -load;
   }
+}
+
+bool FiberResponse::has_tip_spring() const { return !step_.tip.stiffness.isZero(0.0); }
+
+// What the spring at the plus end does to the body when the fiber responds.
+void FiberResponse::add_spring_load(Unknowns response, Vector6 const& q, Vector6& load) const {
+  lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(response);
+  Vec3d const tip = to_vec3(tip_motion_ * response) + body_motion(q, plus_end_);
+  add_body_load(plus_end_, -(step_.tip.stiffness * tip), load);
 }
 
 Vec3d FiberResponse::drag(int i, Vec3d velocity) const {
@@ -260,41 +282,39 @@ void FiberResponse::respond(Eigen::Ref<Eigen::VectorXd const> reduced, Vector6 c
 void FiberResponse::add_linear(ConstPoints u, Vector6 const& q, Points f, Vector6& load) const {
   int const n = step_.basis->n_node;
   std::array<Vec3d, max_fiber_nodes> change{};
-  Eigen::VectorXd reduced = reduced_.leftCols(3 * n) * flat(u);
+  Unknowns reduced(n_unknown_);
+  reduced.noalias() = reduced_.leftCols(3 * n) * flat(u);
   if (step_.body) reduced.noalias() -= reduced_.rightCols<6>() * q;
-  respond(reduced, q, {change.data(), static_cast<std::size_t>(n)});
+  respond(reduced, q, Points(change.data(), n));
   for (int i = 0; i < n; ++i) {
     change[i] -= drag(i, u[i]);
     f[i] += change[i];
     if (step_.body) add_body_load(nodes_[i], -weights_[i] * change[i], load);
   }
-  if (!step_.body || step_.tip.stiffness.isZero(0.0)) return;
-  lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(reduced);
-  Vec3d const tip = to_vec3(tip_motion_ * reduced) + body_motion(q, plus_end_);
-  add_body_load(plus_end_, -(step_.tip.stiffness * tip), load);
+  if (step_.body && has_tip_spring()) add_spring_load(reduced, q, load);
 }
 
 void FiberResponse::add_affine(Points f, Vector6& load) const {
   int const n = step_.basis->n_node;
   Vector6 const q = -predicted_motion();
   std::array<Vec3d, max_fiber_nodes> total{};
-  Eigen::VectorXd reduced = reduced_.col(3 * n);
+  Unknowns reduced = reduced_.col(3 * n);
   if (step_.body) reduced.noalias() -= reduced_.rightCols<6>() * q;
-  respond(reduced, q, {total.data(), static_cast<std::size_t>(n)});
+  respond(reduced, q, Points(total.data(), n));
   for (int i = 0; i < n; ++i) {
     total[i] += drag(i, velocity_[i]);
     f[i] += total[i] - step_.load.motor * tangents_[i];
     if (step_.body) add_body_load(nodes_[i], weights_[i] * (applied(i) - total[i]), load);
   }
   if (!step_.body) return;
-  lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(reduced);
-  Vec3d const tip = plus_end_ + to_vec3(tip_motion_ * reduced) + body_motion(q, plus_end_);
-  add_body_load(plus_end_, step_.tip.force - step_.tip.stiffness * (tip - step_.tip.anchor), load);
+  add_body_load(plus_end_, step_.tip.force - step_.tip.stiffness * (plus_end_ - step_.tip.anchor), load);
+  if (has_tip_spring()) add_spring_load(reduced, q, load);
 }
 
-Eigen::VectorXd FiberResponse::unknowns(ConstPoints u, Vector6 const& q) const {
+FiberResponse::Unknowns FiberResponse::unknowns(ConstPoints u, Vector6 const& q) const {
   int const n = step_.basis->n_node;
-  Eigen::VectorXd y = reduced_.col(3 * n) + reduced_.leftCols(3 * n) * flat(u);
+  Unknowns y = reduced_.col(3 * n);
+  y.noalias() += reduced_.leftCols(3 * n) * flat(u);
   if (step_.body) y.noalias() -= reduced_.rightCols<6>() * (q - predicted_motion());
   lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(y);
   return y;
@@ -311,8 +331,8 @@ void FiberResponse::tension(ConstPoints u, Vector6 const& q, Centreline const& s
   int const n = basis.n_node;
   std::array<Vec3d, max_fiber_nodes> force{};  // per length, on the fluid
   Vector6 no_load = Vector6::Zero();
-  add_affine({force.data(), static_cast<std::size_t>(n)}, no_load);
-  add_linear(u, q, {force.data(), static_cast<std::size_t>(n)}, no_load);
+  add_affine(Points(force.data(), n), no_load);
+  add_linear(u, q, Points(force.data(), n), no_load);
   for (int i = 0; i < n; ++i) force[i] -= step_.load.external;  // elastic part
   Vec3d const tip = tip_force(u, q);
   for (int i = 0; i < n; ++i) {
@@ -328,7 +348,7 @@ void FiberResponse::tension(ConstPoints u, Vector6 const& q, Centreline const& s
 
 void FiberResponse::advance(ConstPoints u, Vector6 const& q, RigidPose const* new_pose, Centreline const& predicted,
                             Centreline& shape) const {
-  Eigen::VectorXd const y = unknowns(u, q);
+  Unknowns const y = unknowns(u, q);
   std::size_t const m = predicted.tangents.size();
   shape.length = length_;
   shape.minus_end = minus_end_;

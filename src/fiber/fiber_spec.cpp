@@ -15,9 +15,8 @@ void read_material(Table& table, FiberMaterialSpec& material) {
   table.read("bending_rigidity", material.bending_rigidity, positive, "pN um^2");
   table.read("radius", material.radius, positive, "um");
   table.read("nodes", material.nodes, between(min_fiber_nodes, max_fiber_nodes));
-  table.read_choice<MinusEnd>(
-      "minus_end", material.minus_end,
-      {{"free", MinusEnd::free}, {"hinged", MinusEnd::hinged}, {"clamped", MinusEnd::clamped}});
+  table.read_choice<MinusEnd>("minus_end", material.minus_end,
+                              {{"free", MinusEnd::free}, {"hinged", MinusEnd::hinged}, {"clamped", MinusEnd::clamped}});
   table.read("growing", material.growing);
 }
 
@@ -53,9 +52,12 @@ std::pair<Vec3d, Vec3d> normals(Vec3d axis) {
 double random_length(AsterSpec const& aster, double chance) {
   double const spread = aster.length - aster.minimal_length;
   switch (aster.lengths) {
-    case AsterSpec::Lengths::uniform: return aster.minimal_length + 2 * spread * chance;
-    case AsterSpec::Lengths::exponential: return aster.minimal_length - spread * std::log(chance);
-    default: return aster.length;
+    case AsterSpec::Lengths::uniform:
+      return aster.minimal_length + 2 * spread * chance;
+    case AsterSpec::Lengths::exponential:
+      return aster.minimal_length - spread * std::log(chance);
+    default:
+      return aster.length;
   }
 }
 
@@ -101,8 +103,9 @@ AsterSpec read_aster(Table table) {
   table.read_choice<Arrangement>("arrangement", aster.arrangement,
                                  {{"random", Arrangement::random}, {"even", Arrangement::even}});
   using Lengths = AsterSpec::Lengths;
-  table.read_choice<Lengths>("lengths", aster.lengths,
-                             {{"equal", Lengths::equal}, {"uniform", Lengths::uniform}, {"exponential", Lengths::exponential}});
+  table.read_choice<Lengths>(
+      "lengths", aster.lengths,
+      {{"equal", Lengths::equal}, {"uniform", Lengths::uniform}, {"exponential", Lengths::exponential}});
   table.read("minimal_length", aster.minimal_length, positive, "um");
   table.read("length", aster.length, positive, "um");
   if (aster.length < aster.minimal_length) table.fail("length", "must be at least minimal_length (um)");
@@ -111,8 +114,8 @@ AsterSpec read_aster(Table table) {
   return aster;
 }
 
-std::vector<AsterFiber> aster_fibers(AsterSpec const& aster, int count, int body, std::uint64_t seed, std::uint64_t number,
-                                     std::function<double(MinusEndSite const&)> const& reach) {
+std::vector<AsterFiber> aster_fibers(AsterSpec const& aster, int count, int body, std::uint64_t seed,
+                                     std::uint64_t number, std::function<double(MinusEndSite const&)> const& reach) {
   auto const [first, second] = normals(aster.axis);
   double const lowest = std::cos(aster.opening * std::numbers::pi / 180.0);
   double const golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
@@ -126,7 +129,7 @@ std::vector<AsterFiber> aster_fibers(AsterSpec const& aster, int count, int body
     Vec3d const direction = normalized(z * aster.axis + (r * std::cos(turn)) * first + (r * std::sin(turn)) * second);
     fibers[i].site = {aster.material.minus_end, body, aster.position + aster.centrosome_radius * direction, direction};
     fibers[i].length = random_length(aster, uniform_random(seed, stream, i, 2));
-    if (reach) fibers[i].length = std::clamp(fibers[i].length, aster.minimal_length, std::max(aster.minimal_length, reach(fibers[i].site)));
+    if (reach) fibers[i].length = std::max(aster.minimal_length, std::min(fibers[i].length, reach(fibers[i].site)));
   }
   return fibers;
 }

@@ -182,7 +182,8 @@ void Fibers::advance(ConstPoints u, std::span<Vector6 const> q, std::span<RigidP
     Vector6 const motion = site.is_attached() ? q[site.body] : Vector6::Zero();
     fiber.response.advance(u.subspan(first_node_[i], fiber.properties.n_node), motion,
                            site.is_attached() ? &poses[site.body] : nullptr, fiber.predicted, fiber.trial);
-    fiber.response.tension(u.subspan(first_node_[i], fiber.properties.n_node), motion, fiber.trial, fiber.trial_tension);
+    fiber.response.tension(u.subspan(first_node_[i], fiber.properties.n_node), motion, fiber.trial,
+                           fiber.trial_tension);
     estimate_error(fiber);
   });
 }

@@ -1,5 +1,5 @@
 #pragma once
-// All flexible fibers of a scene: their shapes at the last accepted times, and one implicit step of all of them at once.
+// All flexible fibers of a scene: their shapes at the last accepted times, and one implicit step of all of them.
 // A fiber is known by its index for ever. A step goes
 //   begin_step();  plan(i) = ...;  prepare(dt, bodies);                     linear problem, geometry of the new time
 //   add_affine_response / add_linear_response                              any number of times
@@ -22,7 +22,7 @@ struct FiberProperties {
   double radius = 0.0125;          // um
   FiberLoad load{};                // unless a step plans another one
   TipLoad tip{};
-  int n_node = 16;                 // hydrodynamic nodes
+  int n_node = 16;  // hydrodynamic nodes
 };
 
 // Local slender-body mobility c = ln(1 / (e eps^2)) / (8 pi mu), eps = radius / length, um^2 / (pN s). Slender-body
@@ -55,11 +55,11 @@ class Fibers {
   // `bodies` [n_body] must stay alive until the step ends.
   void prepare(double dt, std::span<BodyMotionMap const> bodies);
 
-  ConstPoints nodes() const { return nodes_; }       // [n_node] um, predicted for the end of the step
-  ConstVector weights() const { return weights_; }   // [n_node] um, quadrature weights along the fibers
+  ConstPoints nodes() const { return nodes_; }      // [n_node] um, predicted for the end of the step
+  ConstVector weights() const { return weights_; }  // [n_node] um, quadrature weights along the fibers
 
-  // f [n_node] += R u + C q, loads [n_body] += D u - S q: force density on the fluid (pN/um), force (pN) and torque about
-  // the centre (pN um) on the bodies, for the incident flow u [n_node] (um/s) and the bodies' motions q [n_body].
+  // f [n_node] += R u + C q, loads [n_body] += D u - S q: force density on the fluid (pN/um), force (pN) and torque
+  // about the centre (pN um) on the bodies, for the incident flow u [n_node] (um/s) and the bodies' motions q [n_body].
   void add_linear_response(ConstPoints u, std::span<Vector6 const> q, Points f, std::span<Vector6> loads) const;
   // f += f_0, loads += l_0: what remains at u = 0, q = 0.
   void add_affine_response(Points f, std::span<Vector6> loads) const;
@@ -78,7 +78,7 @@ class Fibers {
   MinusEndSite const& site(std::size_t fiber) const { return fibers_[fiber].site; }
   FiberProperties const& properties(std::size_t fiber) const { return fibers_[fiber].properties; }
   ConstVector tension(std::size_t fiber) const { return fibers_[fiber].tension; }  // [n_node] pN, positive: stretched
-  double elastic_energy() const;  // pN um
+  double elastic_energy() const;                                                   // pN um
 
   // Everything that an exact restart needs, and back into fibers added in the same order.
   std::vector<NamedArray> state() const;
@@ -92,8 +92,8 @@ class Fibers {
     Centreline past[3];  // at the last accepted times, latest first
     int n_past = 1;
     Centreline newborn, predicted, trial;
-    PointArray history, extrapolated, sampled;  // [n_node] a1 X_now + a2 X_before; quadratic extrapolation; buffer
-    std::vector<double> coordinates;            // [n_node] buffer
+    PointArray history, extrapolated, sampled;   // [n_node] a1 X_now + a2 X_before; quadratic extrapolation; buffer
+    std::vector<double> coordinates;             // [n_node] buffer
     std::vector<double> tension, trial_tension;  // [n_node] pN
     FiberResponse response;
     double error = 0.0;  // um

@@ -34,7 +34,8 @@ struct Spline {
 
   Vec3d slope(double c) const {
     std::size_t const next = std::clamp<std::size_t>(std::upper_bound(chord.begin(), chord.end(), c) - chord.begin(), 1,
-                                                     chord.size() - 1), i = next - 1;
+                                                     chord.size() - 1),
+                      i = next - 1;
     double const h = chord[next] - chord[i], b = (c - chord[i]) / h, a = 1.0 - b;
     return (points[next] - points[i]) / h + (h / 6) * ((3 * b * b - 1) * bend[next] - (3 * a * a - 1) * bend[i]);
   }
@@ -51,12 +52,14 @@ Centreline centreline_through(ConstPoints points, int n_node) {
   double const piece = spline.chord.back() / n_piece;
   std::vector<double> arc(n_piece + 1, 0.0);
   for (std::size_t i = 0; i < n_piece; ++i)
-    arc[i + 1] = arc[i] + piece / 6 * (norm(spline.slope(i * piece)) + 4 * norm(spline.slope((i + 0.5) * piece)) +
-                                       norm(spline.slope((i + 1) * piece)));
+    arc[i + 1] = arc[i] + piece / 6 *
+                              (norm(spline.slope(i * piece)) + 4 * norm(spline.slope((i + 0.5) * piece)) +
+                               norm(spline.slope((i + 1) * piece)));
   Centreline shape{points.front(), arc.back(), PointArray(basis.n_tangent)};
   for (int j = 0; j < basis.n_tangent; ++j) {
     double const s = basis.lobatto.nodes[j] * shape.length;
-    std::size_t const i = std::clamp<std::ptrdiff_t>(std::upper_bound(arc.begin(), arc.end(), s) - arc.begin() - 1, 0, n_piece - 1);
+    std::size_t const i =
+        std::clamp<std::ptrdiff_t>(std::upper_bound(arc.begin(), arc.end(), s) - arc.begin() - 1, 0, n_piece - 1);
     shape.tangents[j] = normalized(spline.slope((i + (s - arc[i]) / (arc[i + 1] - arc[i])) * piece));
   }
   return shape;

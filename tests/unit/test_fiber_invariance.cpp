@@ -100,8 +100,8 @@ TEST(FiberInvariance, energy_never_grows_without_forcing_when_steps_resolve_the_
     }
 }
 
-// A multistep scheme lets a mode that it does not resolve change sign while it decays, so that its energy may rise after
-// a step in which it was almost zero. What never grows is the energy of its two levels,
+// A multistep scheme lets a mode that it does not resolve change sign while it decays, so that its energy may rise
+// after a step in which it was almost zero. What never grows is the energy of its two levels,
 // |k_new|^2 + |2 k_new - k_now|^2 with the curvature k [Dahlquist 1978].
 TEST(FiberInvariance, energy_of_both_levels_never_grows_however_long_the_step) {
   for (double dt : {1e-4, 1e-2, 1.0, 100.0})
@@ -116,7 +116,8 @@ TEST(FiberInvariance, energy_of_both_levels_never_grows_however_long_the_step) {
         fibers.begin_step();
         step(fibers, dt);
         Centreline const& now = fibers.shape(0);
-        for (std::size_t j = 0; j < now.tangents.size(); ++j) ahead.tangents[j] = 2.0 * now.tangents[j] - ahead.tangents[j];
+        for (std::size_t j = 0; j < now.tangents.size(); ++j)
+          ahead.tangents[j] = 2.0 * now.tangents[j] - ahead.tangents[j];
         double const levels = squared_curvature(now) + squared_curvature(ahead);
         // one in a thousand for tangents that are put back to unit length
         EXPECT_LE(levels, energy * (1 + 1e-3) + 1e-20) << "dt " << dt << " step " << i;
@@ -154,7 +155,8 @@ TEST(FiberInvariance, restart_continues_exactly) {
       EXPECT_EQ(norm(whole.shape(i).tangents[j] - second.shape(i).tangents[j]), 0.0);
 }
 
-// Slenderness 1e-4 to 1e-1, length 0.05 to 50 um, rigidity over six decades, steps of 1e-4 to 10 s, viscosity 1e-3 to 1e3.
+// Slenderness 1e-4 to 1e-1, length 0.05 to 50 um, rigidity over six decades, steps of 1e-4 to 10 s, viscosity 1e-3 to
+// 1e3.
 TEST(FiberInvariance, extremes_stay_finite_and_inside_the_flow) {
   for (double slenderness : {1e-4, 1e-1})
     for (double length : {0.05, 50.0})

@@ -16,7 +16,8 @@ bool buckles(MinusEnd minus_end, bool holds_tip, double force) {
   double const length = 7.0, rigidity = 3.0, viscosity = 0.4;
   FiberProperties properties{.bending_rigidity = rigidity, .n_node = 16};
   properties.tip.force = {-force, 0, 0};
-  Centreline const shape = bent_centreline(length, 16, 1e-6, [](double a) { return a * (1 - a) + 0.3 * a * a * a - 0.05; });
+  Centreline const shape =
+      bent_centreline(length, 16, 1e-6, [](double a) { return a * (1 - a) + 0.3 * a * a * a - 0.05; });
   if (holds_tip) {
     properties.tip.stiffness(1, 1) = properties.tip.stiffness(2, 2) = 1e5;
     properties.tip.anchor = {length, 0, 0};
@@ -53,7 +54,8 @@ TEST(FiberMechanics, clamped_hinged_fiber_buckles_at_Eulers_load) {
   expect_buckling_load(MinusEnd::clamped, true, 20.190728556426629);
 }
 
-// A fiber aligned with the compressing axis of the flow (-x, y, 0) rate / 2, as in the shear flow of that rate at 45 degrees.
+// A fiber aligned with the compressing axis of the flow (-x, y, 0) rate / 2, as in the shear flow of that rate at 45
+// degrees.
 TEST(FiberMechanics, fiber_in_shear_buckles_at_306) {
   double const length = 6.0, rigidity = 5.0, viscosity = 2.0;
   double const scale = rigidity * slender_body_mobility(length, 0.0125, viscosity) / std::pow(length, 4);

@@ -65,14 +65,17 @@ TEST(FiberSpec, more_random_fibers_do_not_move_the_first_ones) {
 
 TEST(FiberSpec, reach_limits_the_length) {
   AsterSpec const aster = aster_from("length = 8");
-  for (auto const& fiber : aster_fibers(aster, 10, -1, 7, 2, [](auto const&) { return 3.0; })) EXPECT_EQ(fiber.length, 3.0);
-  for (auto const& fiber : aster_fibers(aster, 10, -1, 7, 2, [](auto const&) { return 0.1; })) EXPECT_EQ(fiber.length, 0.5);
+  for (auto const& fiber : aster_fibers(aster, 10, -1, 7, 2, [](auto const&) { return 3.0; }))
+    EXPECT_EQ(fiber.length, 3.0);
+  for (auto const& fiber : aster_fibers(aster, 10, -1, 7, 2, [](auto const&) { return 0.1; }))
+    EXPECT_EQ(fiber.length, 0.5);
 }
 
 TEST(FiberSpec, curve_through_points_of_a_circle_is_that_arc) {
   PointArray points;
   double const radius = 3.0, angle = 1.0;
-  for (int i = 0; i <= 40; ++i) points.push_back({radius * std::sin(angle * i / 40), radius * std::cos(angle * i / 40), 0});
+  for (int i = 0; i <= 40; ++i)
+    points.push_back({radius * std::sin(angle * i / 40), radius * std::cos(angle * i / 40), 0});
   Centreline const shape = centreline_through(points, 16);
   // A natural spline has no curvature at its ends: an error of the first and last pieces only.
   EXPECT_NEAR(shape.length, radius * angle, 1e-5);
