@@ -21,4 +21,8 @@ struct GradedRuleOptions {
 void append_graded_rule(double first, double centre, double last, double scale, GradedRuleOptions const& options,
                         std::vector<RulePoint>& rule);
 
+// Overwrites `rule` by one for the whole period [centre - pi, centre + pi) of a periodic function that is singular at
+// centre + i delta: the trapezoid rule where that is cheap, else a graded one.
+void periodic_rule(double centre, double delta, GradedRuleOptions const& options, std::vector<RulePoint>& rule);
+
 }  // namespace asterflow

@@ -25,7 +25,7 @@ bool is_odd_in_t(int component, int m) { return ((component > 0) + m) % 2 != 0; 
 // Rule on the half circle [0, pi] (weights for the full circle by symmetry), singular at a complex angle i delta.
 void azimuth_rule(double delta, int order, double digits, std::vector<RulePoint>& rule) {
   rule.clear();
-  int const n_trapezoid = static_cast<int>(std::ceil(0.5 * (order + 2.4 * digits / delta))) + 4;
+  int const n_trapezoid = static_cast<int>(std::ceil(0.5 * (order + 1.6 * digits / delta))) + 4;
   if (delta > 0.3) {
     for (int k = 0; k < n_trapezoid; ++k) rule.push_back({pi * (k + 0.5) / n_trapezoid, 2.0 * pi / n_trapezoid});
     return;

@@ -38,11 +38,10 @@ Surface::Surface(std::shared_ptr<Shape const> shape, int order, Grading const& g
   }
 }
 
-SurfacePatch Surface::patch(double t, double phi) const {
-  auto const [theta, slope] = grading_.polar_angle(t);
-  double const c = std::cos(theta), s = std::sin(theta), cp = std::cos(phi), sp = std::sin(phi);
+SurfacePatch Surface::patch(Grading::PolarAngle ring, double phi) const {
+  double const c = std::cos(ring.theta), s = std::sin(ring.theta), cp = std::cos(phi), sp = std::sin(phi);
   SphereImage const image = shape_->image(from_polar({c, s * cp, s * sp}));
-  return {image.position, product(image.jacobian, slope * from_polar({-s, c * cp, c * sp})),
+  return {image.position, product(image.jacobian, ring.slope * from_polar({-s, c * cp, c * sp})),
           product(image.jacobian, from_polar({0.0, -s * sp, s * cp}))};
 }
 

@@ -42,7 +42,8 @@ class Surface {
   double volume() const { return volume_; }         // um^3
 
   bool axisymmetric() const { return axisymmetric_; }  // in phi, with its grid
-  SurfacePatch patch(double t, double phi) const;
+  SurfacePatch patch(double t, double phi) const { return patch(grading_.polar_angle(t), phi); }
+  SurfacePatch patch(Grading::PolarAngle ring, double phi) const;
   ClosestAngles closest_angles(Vec3d x) const;
 
   // Components along (e_1, e_2, e_3) of the grading, and back.
