@@ -69,6 +69,10 @@ void Simulation::plan_fibers(double dt) {
   growth_->plan(fibers_);
 }
 
+std::size_t Simulation::exchange_memory() const {
+  return (radiation_.fine ? radiation_.fine->memory() : 0) + (radiation_.coarse ? radiation_.coarse->memory() : 0);
+}
+
 Matrix6 Simulation::resistance_alone(std::size_t body, RigidPose const& pose) const {
   return body_resistance(*flows_.bodies[body], pose, scene_.fluid.viscosity);
 }

@@ -55,7 +55,7 @@ class Simulation {
   std::vector<NamedArray> restart() const;
   void restore(double time, std::vector<NamedArray> const& restart);
 
-  std::size_t memory() const;  // bytes of operators and sums
+  std::size_t exchange_memory() const;  // bytes held for the exchange of flows; 0 without interactions
 
  private:
   struct Trial;

@@ -54,3 +54,92 @@ TEST(Simulation, sphere_at_the_centre_of_a_sphere_feels_the_exact_wall_correctio
   EXPECT_NEAR(motion[1] * 6 * M_PI * 0.7 * 2.975410, 1.0, 1e-6);
   EXPECT_NEAR(motion[5] * 8 * M_PI * 0.7 * 27.0 / 26.0, 1.0, 1e-6);
 }
+
+namespace {
+
+// A spheroid with two clamped fibers, turned by a torque and dragged along: everything moves, turns and bends.
+std::string const moving_scene = R"(
+  [fluid]
+  viscosity = 0.8
+  [[body]]
+  name = "seed"
+  shape = "ellipsoid"
+  semi_axes = [1.5, 1.0, 1.0]
+  position = [0.0, 0.0, 0.0]
+  force = [0.0, 0.0, 4.0]
+  torque = [3.0, 10.0, -4.0]
+  order = 8
+  [[fiber]]
+  body = "seed"
+  position = [1.6, 0.0, 0.0]
+  direction = [1.0, 0.2, 0.0]
+  length = 4.0
+  nodes = 8
+  minus_end = "clamped"
+  [[fiber]]
+  body = "seed"
+  position = [-1.6, 0.0, 0.0]
+  direction = [-1.0, 0.0, 0.3]
+  length = 3.0
+  nodes = 8
+  minus_end = "clamped"
+  end_force = [0.0, 0.2, 0.1]
+)";
+
+Eigen::VectorXd state_after(double end, double dt, std::string const& level) {
+  Simulation simulation(scene_of(moving_scene + "[run]\ninteractions = \"" + level +
+                                 "\"\nadaptive = false\naccuracy = 1e-4\ngmres_tolerance = 1e-10\n"
+                                 "evaluator_accuracy = 1e-12\ntime_step = " +
+                                 std::to_string(dt)));
+  while (simulation.time() < end) simulation.step(end);
+  Eigen::VectorXd state(9);
+  state << to_eigen(simulation.bodies()[0].pose().position), to_eigen(plus_end(simulation.fibers().shape(0))),
+      to_eigen(plus_end(simulation.fibers().shape(1)));
+  return state;
+}
+
+}  // namespace
+
+TEST(Simulation, converges_at_second_order_in_time) {
+  for (std::string const level : {"local", "open"}) {
+    auto const coarse = state_after(0.8, 0.08, level), middle = state_after(0.8, 0.04, level),
+               fine = state_after(0.8, 0.02, level);
+    double const ratio = (coarse - middle).norm() / (middle - fine).norm();
+    EXPECT_GT((coarse - middle).norm(), 1e-6) << level;  // there is an error to measure
+    EXPECT_GT(ratio, 3.3) << level;                      // 4 in the limit; the first step is of first order
+    EXPECT_LT(ratio, 6.0) << level;
+  }
+}
+
+TEST(Simulation, restart_goes_on_bit_for_bit) {
+  std::string const text = moving_scene + "[run]\ninteractions = \"open\"\naccuracy = 1e-3\n";
+  Simulation whole(scene_of(text)), resumed(scene_of(text));
+  for (int i = 0; i < 3; ++i) whole.step(1e3);
+  resumed.restore(whole.time(), whole.restart());
+  for (int i = 0; i < 2; ++i) {
+    auto const a = whole.step(1e3), b = resumed.step(1e3);
+    EXPECT_EQ(a.time, b.time);
+  }
+  EXPECT_EQ(whole.bodies()[0].state(), resumed.bodies()[0].state());
+  EXPECT_EQ(plus_end(whole.fibers().shape(0)), plus_end(resumed.fibers().shape(0)));
+}
+
+TEST(Simulation, keeps_lengths_exactly) {
+  Simulation simulation(scene_of(moving_scene + "[run]\ninteractions = \"open\"\naccuracy = 1e-3\n"));
+  for (int i = 0; i < 10; ++i) simulation.step(1e3);
+  EXPECT_DOUBLE_EQ(simulation.fibers().shape(0).length, 4.0);
+  for (Vec3d const& t : simulation.fibers().shape(0).tangents) EXPECT_NEAR(norm(t), 1.0, 1e-14);
+  EXPECT_GT(simulation.fibers().elastic_energy(), 0.0);
+}
+
+TEST(Simulation, of_a_local_scene_iterates_over_nothing) {
+  Simulation simulation(scene_of(moving_scene + "[run]\ninteractions = \"local\"\n"));
+  EXPECT_EQ(simulation.step(1.0).iterations, 0);
+  EXPECT_EQ(simulation.exchange_memory(), 0u);
+}
+
+TEST(Simulation, of_an_empty_scene_does_nothing_and_ends) {
+  Simulation simulation(scene_of(""));
+  simulation.step(0.01);
+  EXPECT_EQ(simulation.frame().size(), 1u);
+}
