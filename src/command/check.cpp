@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <memory>
+#include <sys/resource.h>
 
 namespace asterflow {
 
@@ -89,6 +90,13 @@ void print_solver(Scene const& scene, Simulation const& simulation, long n_surfa
                                               : fmt::format("steps of {:g} s", run.time_step)));
 }
 
+// Largest resident memory of this process so far, bytes.
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * double(usage.ru_maxrss);
+}
+
 void check(CheckOptions const& options) {
   Scene const scene = read_scene(options.scene, options.overrides);
   print_line("scene", options.scene + ": valid");
@@ -105,6 +113,7 @@ void check(CheckOptions const& options) {
     print_line("first step", fmt::format("{:.3g} s for dt = {:.3g} s, {} GMRES iterations, {} trials before it", step.seconds,
                                          step.dt, step.iterations, step.rejected));
   }
+  print_line("memory", fmt::format("{:.0f} MB, of the whole program at most", peak_memory() / 1e6));
 }
 
 }  // namespace

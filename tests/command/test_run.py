@@ -106,16 +106,23 @@ class Run(SceneTest):
             self.assertGreater(file["frames/000001/body/position"][0, 1], 0.01)
             self.assertIn("run.end_time=0.5", file["header/overrides"][()].decode())
 
-    def test_a_resumed_run_equals_one_without_interruption(self):
-        self.run_scene(ASTER)
+    def check_resuming(self, scene, middle, end):
+        self.run_scene(scene, "--set", f"run.end_time={end}")
         whole = contents(self.trajectory)
         self.out = self.folder / "parts"
-        self.run_scene(ASTER, "--set", "run.end_time=1")
-        self.expect_done("resume", self.out, "--set", "run.end_time=3")
+        self.run_scene(scene, "--set", f"run.end_time={middle}")
+        self.expect_done("resume", self.out, "--set", f"run.end_time={end}")
         parts = contents(self.out / "trajectory.h5")
         self.assertEqual(whole.keys(), parts.keys())
         for name in whole:
             self.assertEqual(np.asarray(whole[name]).tobytes(), np.asarray(parts[name]).tobytes(), name)
+
+    def test_a_resumed_run_equals_one_without_interruption(self):
+        self.check_resuming(ASTER, 1, 3)
+
+    def test_so_does_a_resumed_run_with_all_interactions(self):
+        confined = ASTER.replace('"local"', '"confined"').replace("1e-3", "1e-2")
+        self.check_resuming(confined + "[periphery]\nshape = 'sphere'\nradius = 6\n", 0.5, 1)
 
     def test_a_killed_run_goes_on_exactly(self):
         self.run_scene(ASTER)
@@ -251,7 +258,7 @@ class Results(SceneTest):
     def test_check_says_what_will_be_modelled(self):
         self.scene.write_text(ASTER)
         text = self.expect_done("check", self.scene).stdout
-        for word in ("valid", "core", "fibers", "5", "interactions", "local", "unknowns", "evaluators", "first step"):
+        for word in ("valid", "core", "fibers", "5", "interactions", "local", "unknowns", "evaluators", "first step", "memory"):
             self.assertIn(word, text)
 
     def test_flow_around_a_sphere_in_a_cell(self):
