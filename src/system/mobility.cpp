@@ -1,6 +1,7 @@
 #include "system/mobility.hpp"
 
 #include "base/error.hpp"
+#include "surface/resistance.hpp"
 #include "system/flows.hpp"
 #include "system/population.hpp"
 #include "system/rigid_fibers.hpp"
@@ -27,6 +28,27 @@ Eigen::VectorXd loads_of(RigidFibers const& fibers, Radiation* radiation, std::v
   return result;
 }
 
+// Bodies alone: boundary integrals whose nodes crowd where surfaces are close, accurate down to small gaps.
+SceneMobility mobility_of_bodies(Scene const& scene) {
+  SceneMobility result;
+  std::vector<PlacedSurface> bodies;
+  int order = 0;
+  for (auto const& body : scene.bodies) {
+    bodies.push_back({make_shape(body.shape), body.position, body.orientation});
+    result.names.push_back(body.name);
+    order = std::max(order, body.order);
+  }
+  std::optional<PlacedSurface> periphery;
+  if (scene.run.interactions == Interactions::confined) {
+    periphery = {make_shape(scene.periphery->shape), {}, Eigen::Quaterniond::Identity(), true};
+    order = std::max(order, scene.periphery->order);
+  }
+  auto solved = solve_resistance(bodies, periphery, {scene.fluid.viscosity, scene.run.accuracy, order});
+  result.resistance = std::move(solved.resistance);
+  result.mobility = std::move(solved.mobility);
+  return result;
+}
+
 }  // namespace
 
 SceneMobility scene_mobility(Scene const& scene) {
@@ -35,6 +57,7 @@ SceneMobility scene_mobility(Scene const& scene) {
   Fibers fibers(scene.fluid.viscosity);
   std::optional<DynamicInstability> no_growth;
   add_scene_fibers(scene, fibers, no_growth);
+  if (n > 0 && fibers.count() == 0 && scene.run.interactions != Interactions::local) return mobility_of_bodies(scene);
   SceneFlows const flows = make_flows(scene, Resolution::fine);
   SceneRadiation const exchange = make_radiation(scene, flows, fibers.count() > 0);
   std::vector<BodyDrive> bodies;

@@ -1,7 +1,8 @@
 #pragma once
 // Instantaneous resistance and mobility of the bodies of a scene as it stands: forces and torques (about the centres)
 // against velocities and angular velocities, with all interactions of the scene's level. Fibers keep their shape
-// (rigid_fibers.hpp): those that a body holds move with it, free ones drift without force and torque.
+// (rigid_fibers.hpp): those that a body holds move with it, free ones drift without force and torque. Without fibers
+// the result is accurate down to small gaps (surface/resistance.hpp); all surfaces then take the largest `order` given.
 
 #include "io/scene.hpp"
 
