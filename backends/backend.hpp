@@ -17,4 +17,14 @@ bool has_direct_avx2();
 bool has_direct_avx512();
 std::unique_ptr<Evaluator> make_fast(std::string_view kernel, double accuracy);
 
+// What the pair loops of an instruction set ("avx2", "avx512") do for an accuracy where the points allow: for
+// benchmarks that count instructions.
+struct PairArithmetic {
+  int bits = 64;       // of a number
+  int steps = 0;       // terms that correct the hardware estimate of 1 / |r|
+  int lanes = 0;       // pairs per vector register
+  double error = 0.0;  // bound of the relative error of 1 / |r|, rounding apart
+};
+PairArithmetic pair_arithmetic(std::string_view instructions, std::string_view kernel, double accuracy);
+
 }  // namespace asterflow

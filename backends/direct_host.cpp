@@ -120,4 +120,12 @@ std::unique_ptr<Evaluator> make_direct_avx512(std::string_view kernel, double ac
   return std::make_unique<DirectHost>(InstructionSet::avx512, traits_of(kernel), accuracy);
 }
 
+PairArithmetic pair_arithmetic(std::string_view instructions, std::string_view kernel, double accuracy) {
+  InstructionSet const set = instructions == "avx512" ? InstructionSet::avx512 : InstructionSet::avx2;
+  auto const single = loops_for<float>(set, traits_of(kernel).index, accuracy);
+  if (single.add_one_way) return {32, single.steps, single.lanes, single.error};
+  auto const full = loops_for<double>(set, traits_of(kernel).index, accuracy);
+  return {64, full.steps, full.lanes, full.error};
+}
+
 }  // namespace asterflow

@@ -68,13 +68,13 @@ void PackedSum<Real>::set_points(ConstPoints sources, ConstPoints targets, Const
   }
 }
 
-// About sqrt(n) / 2 blocks, and a number of pairs per round that threads can share evenly.
+// Few rounds, since threads wait for each other after every one, and enough pairs per round to share evenly.
 template <class Real>
 void PackedSum<Real>::set_blocks() {
   blocks_.clear();
   if (n_self_ == 0) return;
   long const n_group = (n_self_ + loops_.lanes - 1) / loops_.lanes;
-  long const n_block = 8 * std::max(1L, std::lround(std::sqrt(static_cast<double>(n_self_)) / 16.0));
+  long const n_block = n_self_ < 4096 ? 16 : 32;
   for (long b = 0; b < n_block; ++b) {
     long const first = b * n_group / n_block;
     blocks_.push_back({first, (b + 1) * n_group / n_block - first});

@@ -23,10 +23,14 @@ class Reference final : public Evaluator {
   void add_velocity(ConstPoints strengths, Points velocity) override {
     ASTERFLOW_REQUIRE(strengths.size() == sources_.size() && velocity.size() == targets_.size());
     parallel_for("Reference::add_velocity", static_cast<long>(targets_.size()), [&](long i) {
-      Vec3d u{};
-      for (std::size_t j = 0; j < sources_.size(); ++j)
+      Vec3d total{}, u{};  // partial sums keep rounding errors from growing with the number of sources
+      for (std::size_t j = 0; j < sources_.size(); ++j) {
         u += Kernel::velocity(targets_[i] - sources_[j], strengths[j], Kernel::has_normal ? normals_[j] : Vec3d{});
-      velocity[i] += u;
+        if (j % 128 != 127) continue;
+        total += u;
+        u = {};
+      }
+      velocity[i] += total + u;
     });
   }
 

@@ -1,7 +1,8 @@
 # Pair loops of each instruction set: one source file each, compiled for that set whatever the rest is compiled
 # for, chosen at run time. (Scheduling interleaves the independent targets of the loop body: 3 % faster.)
 string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" processor)
-if(processor MATCHES "x86_64|amd64" AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+# A device compiler does not take vector registers of the host; there the device does the sums.
+if(processor MATCHES "x86_64|amd64" AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND NOT Kokkos_DEVICES MATCHES "CUDA|HIP|SYCL")
   set(pair_loop_flags -O3 -ffp-contract=fast $<$<CXX_COMPILER_ID:GNU>:-fschedule-insns;-fsched-pressure>)
   target_sources(asterflow_backends PRIVATE backends/pair_sums_avx2.cpp backends/pair_sums_avx512.cpp)
   set_source_files_properties(backends/pair_sums_avx2.cpp PROPERTIES COMPILE_OPTIONS

@@ -1,0 +1,18 @@
+#pragma once
+// CPU time: unlike wall time it does not count what other programs take. Threads that wait by spinning do count.
+
+#include <ctime>
+
+namespace asterflow {
+
+inline double seconds_of(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// All threads of this process together, and the calling thread alone.
+inline double cpu_seconds() { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
+inline double thread_cpu_seconds() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }
+
+}  // namespace asterflow
