@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 
 using namespace asterflow;
@@ -155,6 +156,7 @@ int main(int argc, char** argv) {
   app.add_flag("--dry-run", options.dry_run, "few points, once: does the program work?");
   CLI11_PARSE(app, argc, argv);
   if (options.dry_run) options = {600, 1, true};
+  setenv("OMP_PROC_BIND", "false", 0);  // Kokkos would otherwise advise on standard output, where the JSON goes
   Kokkos::ScopeGuard const kokkos;
   run(options);
   return 0;
