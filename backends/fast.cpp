@@ -9,6 +9,7 @@
 #include "backends/fast_cover.hpp"
 #include "backends/fast_grid.hpp"
 #include "backends/fast_near.hpp"
+#include "backends/fast_plan.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "kernels/list.hpp"
@@ -40,10 +41,8 @@ class Fast final : public Evaluator {
       : kernel_(kernel),
         parameters_(parameters),
         split_(parameters.split_shape),
-        window_(parameters.width, parameters.window_shape),
         components_(kernel == "stresslet" ? 6 : 3),
-        convolution_(kernel_, components_),
-        near_(kernel_, split_.local_part(kernel_, parameters.local_tolerance), parameters.refinement_steps) {}
+        convolution_(kernel_, components_) {}
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
     ASTERFLOW_REQUIRE(normals.size() == (components_ == 6 ? sources.size() : 0));
@@ -56,13 +55,16 @@ class Fast final : public Evaluator {
     batches_.clear();
     direct_.reset();
     if (n_source_ == 0 || n_target_ == 0) return;
-    tree_ = std::make_unique<Octree>(
-        sources, targets, OctreeOptions{parameters_.capacity, parameters_.first_level, parameters_.enlargement});
-    if (tree_->refined().empty()) {
+    if (static_cast<long>(n_source_ + n_target_) > 2 * parameters_.capacity)
+      tree_ = best_octree(sources, targets, parameters_, components_);
+    else
+      tree_.reset();
+    if (!tree_ || tree_->refined().empty()) {
       direct_ = make_direct(kernel_, parameters_.accuracy);
       return direct_->set_points(sources, targets, normals);
     }
-    near_.set_points(*tree_, sources, targets);
+    make_tables();
+    near_->set_points(*tree_, sources, targets);
     normals_.clear();
     for (std::uint32_t i : tree_->source_order())
       if (!normals.empty()) normals_.push_back(normals[i]);
@@ -82,8 +84,8 @@ class Fast final : public Evaluator {
     PointArray smooth(n_target_), local(n_target_);
     set_grid_strengths(sorted);
     for (Batch const& batch : batches_) run_batch(batch, smooth.data());
-    near_.set_strengths(sorted.data(), normals_.empty() ? nullptr : normals_.data());
-    parallel_for("Fast::near", near_.n_items(), [&](long i) { near_.add(i, local.data()); });
+    near_->set_strengths(sorted.data(), normals_.empty() ? nullptr : normals_.data());
+    parallel_for("Fast::near", near_->n_items(), [&](long i) { near_->add(i, local.data()); });
     Vec3d const uniform = uniform_flow(sorted);
     double const scale = largest / (kernel_ == "stokeslet" ? tree_->side() : tree_->side() * tree_->side());
     for (std::size_t i = 0; i < n_target_; ++i)
@@ -93,7 +95,7 @@ class Fast final : public Evaluator {
   std::string_view backend() const override { return "fast"; }
   std::size_t memory() const override {
     if (direct_) return direct_->memory();
-    std::size_t bytes = near_.memory() + (grid_.capacity() + spectrum_.capacity() + strengths_.capacity()) * sizeof(Real);
+    std::size_t bytes = near_->memory() + (grid_.capacity() + spectrum_.capacity() + strengths_.capacity()) * sizeof(Real);
     bytes += 40 * (n_source_ + n_target_);
     for (Patch<Real> const& patch : patches_)
       bytes += 4 * (patch.sources.index.capacity() + patch.targets.index.capacity());
@@ -102,6 +104,7 @@ class Fast final : public Evaluator {
 
  private:
   // --- geometry
+  void make_tables();
   void make_patches();
   void add_root_patch();
   void add_level_patches(int level);
@@ -116,10 +119,10 @@ class Fast final : public Evaluator {
   std::string kernel_;
   FastParameters parameters_;
   KernelSplit split_;
-  GridWindow<Real> window_;
   int components_;
   GridConvolution<Real> convolution_;
-  NearField<Real> near_;
+  std::unique_ptr<GridWindow<Real>> window_;  // made for the first points that need them
+  std::unique_ptr<NearField<Real>> near_;
 
   std::size_t n_source_ = 0, n_target_ = 0;
   std::unique_ptr<Evaluator> direct_;  // in place of everything else where the points are few
@@ -133,10 +136,18 @@ class Fast final : public Evaluator {
 };
 
 template <class Real>
+void Fast<Real>::make_tables() {
+  if (window_) return;
+  window_ = std::make_unique<GridWindow<Real>>(parameters_.width, parameters_.window_shape);
+  near_ = std::make_unique<NearField<Real>>(kernel_, split_.local_part(kernel_, parameters_.local_tolerance),
+                                            parameters_.refinement_steps);
+}
+
+template <class Real>
 void Fast<Real>::make_patches() {
   add_root_patch();
   close_batch(0);
-  for (int level = parameters_.first_level; level < static_cast<int>(tree_->refined().size()); ++level) {
+  for (int level = tree_->first_level(); level < static_cast<int>(tree_->refined().size()); ++level) {
     std::size_t const first = patches_.size();
     add_level_patches(level);
     close_batch(first);
@@ -148,12 +159,12 @@ void Fast<Real>::make_patches() {
 // [after Vico, Greengard & Ferrando 2016].
 template <class Real>
 void Fast<Real>::add_root_patch() {
-  double const cutoff = std::ldexp(1.0, -parameters_.first_level);
+  double const cutoff = std::ldexp(1.0, -tree_->first_level());
   double const spacing = cutoff / parameters_.nodes_per_cutoff;
   Vec3d const extent = tree_->extent();
   reach_ = norm(extent) + cutoff;
   Patch<Real> patch;
-  double const margin = 0.5 * window_.width() + 1.0;
+  double const margin = 0.5 * window_->width() + 1.0;
   patch.spacing = spacing;
   patch.origin = Vec3d{-margin, -margin, -margin} * spacing;
   for (int d = 0; d < 3; ++d) {
@@ -164,8 +175,8 @@ void Fast<Real>::add_root_patch() {
   patch.scale = kernel_ == "stokeslet" ? 1.0 / spacing : 1.0 / (spacing * spacing);
   patch.tiles_y = std::max(1, patch.nodes[1] / Patch<Real>::tile);
   patch.tiles_z = std::max(1, patch.nodes[2] / Patch<Real>::tile);
-  patch.sources = window_.tile(patch, tree_->sources(), {{0, static_cast<long>(n_source_)}});
-  patch.targets = window_.tile(patch, tree_->targets(), {{0, static_cast<long>(n_target_)}});
+  patch.sources = window_->tile(patch, tree_->sources(), {{0, static_cast<long>(n_source_)}});
+  patch.targets = window_->tile(patch, tree_->targets(), {{0, static_cast<long>(n_target_)}});
   patch.symbol = symbol(patch, true, reach_ / spacing);
   patches_.push_back(std::move(patch));
 }
@@ -181,7 +192,7 @@ void Fast<Real>::add_level_patches(int level) {
     Patch<Real>& patch = patches_[first + i];
     patch.spacing = spacing;
     patch.scale = kernel_ == "stokeslet" ? 1.0 / spacing : 1.0 / (spacing * spacing);
-    int const margin = window_.width() / 2 + 1;
+    int const margin = window_->width() / 2 + 1;
     for (int d = 0; d < 3; ++d) {
       int const m = rectangles[i].high[d] - rectangles[i].low[d] + 1;
       patch.origin[d] = (rectangles[i].low[d] - 1) * side;
@@ -203,15 +214,15 @@ void Fast<Real>::add_level_patches(int level) {
       if (inside) sources.push_back(box.sources);
     }
     Patch<Real>& patch = patches_[first + i];
-    patch.sources = window_.tile(patch, tree_->sources(), sources);
-    patch.targets = window_.tile(patch, tree_->targets(), targets);
+    patch.sources = window_->tile(patch, tree_->sources(), sources);
+    patch.targets = window_->tile(patch, tree_->targets(), targets);
   });
 }
 
 template <class Real>
 std::shared_ptr<SymbolTable<Real> const> Fast<Real>::symbol(Patch<Real> const& patch, bool root, double reach) {
   for (int n : patch.nodes) convolution_.prepare(n);
-  auto const correction = [&](double theta) { return window_.transform(theta); };
+  auto const correction = [&](double theta) { return window_->transform(theta); };
   double const cutoff = parameters_.nodes_per_cutoff, band = parameters_.band / cutoff;
   if (root) {
     auto const filter = [&](double k) {
@@ -265,7 +276,7 @@ void Fast<Real>::run_batch(Batch const& batch, Vec3d* velocity) {
     Patch<Real> const& patch = patches_[i];
     grid_begin.push_back(grid_size);
     spectrum_begin.push_back(spectrum_size);
-    grid_size += window_.row(patch) * components_ * patch.nodes[1] * patch.nodes[2];
+    grid_size += window_->row(patch) * components_ * patch.nodes[1] * patch.nodes[2];
     spectrum_size += convolution_.spectrum_size(patch);
   }
   if (static_cast<long>(grid_.size()) < grid_size) grid_.resize(grid_size);
@@ -281,16 +292,16 @@ void Fast<Real>::run_batch(Batch const& batch, Vec3d* velocity) {
   };
   auto const tiles = [](Patch<Real> const& patch) { return static_cast<long>(patch.tiles_y) * patch.tiles_z; };
   for_all(tiles, [&](Patch<Real> const& patch, long i, long item) {
-    window_.spread(patch, item, tree_->sources(), strengths_.data(), components_, grid_.data() + grid_begin[i]);
+    window_->spread(patch, item, tree_->sources(), strengths_.data(), components_, grid_.data() + grid_begin[i]);
   });
   for (Sweep sweep : {Sweep::x_forward, Sweep::z_forward, Sweep::y_and_symbol, Sweep::z_inverse, Sweep::x_inverse})
     for_all([&](Patch<Real> const& patch) { return convolution_.n_items(patch, sweep); },
             [&](Patch<Real> const& patch, long i, long item) {
-              convolution_.run(patch, sweep, item, window_.row(patch), grid_.data() + grid_begin[i],
+              convolution_.run(patch, sweep, item, window_->row(patch), grid_.data() + grid_begin[i],
                                spectrum_.data() + spectrum_begin[i]);
             });
   for_all(tiles, [&](Patch<Real> const& patch, long i, long item) {
-    window_.interpolate(patch, item, tree_->targets(), grid_.data() + grid_begin[i], components_, velocity);
+    window_->interpolate(patch, item, tree_->targets(), grid_.data() + grid_begin[i], components_, velocity);
   });
 }
 

@@ -53,6 +53,11 @@ struct Row {
 
 int wrapped(int i, int n) { return i < 0 ? i + n : i >= n ? i - n : i; }
 
+// Whether nodes first ... first + width - 1, continued periodically, meet the range.
+bool overlaps(int first, int width, Range range, int n) {
+  return (first < range.end && first + width > range.begin) || first + width - n > range.begin;
+}
+
 }  // namespace
 
 template <class Real>
@@ -107,11 +112,12 @@ TiledPoints GridWindow<Real>::tile(Patch<Real> const& patch, PointArray const& p
   tiled.tile_begin.assign(n_tile + 1, 0);
   long n = 0;
   for (Range const& range : ranges) n += range.size();
+  double const to_nodes = 1.0 / patch.spacing;
   std::vector<int> tiles;
   tiles.reserve(n);
   for (Range const& range : ranges)
     for (long i = range.begin; i < range.end; ++i) {
-      Vec3d const xi = (points[i] - patch.origin) / patch.spacing;
+      Vec3d const xi = to_nodes * (points[i] - patch.origin);
       int const y = wrapped(first_node(xi.y), patch.nodes[1]), z = wrapped(first_node(xi.z), patch.nodes[2]);
       tiles.push_back(patch.tile_of(z, 2) * patch.tiles_y + patch.tile_of(y, 1));
       ++tiled.tile_begin[tiles.back() + 1];
@@ -125,19 +131,26 @@ TiledPoints GridWindow<Real>::tile(Patch<Real> const& patch, PointArray const& p
   return tiled;
 }
 
+// The three rows of weights of one point; one loop, so that their chains of operations overlap.
 template <class Real>
 template <int padded>
-auto GridWindow<Real>::weights(double xi, int& first) const {
+void GridWindow<Real>::weights(Vec3d const& xi, int const (&first)[3], void* rows) const {
   using R = Row<Real, padded>;
-  first = first_node(xi);
-  Real const z = static_cast<Real>(2.0 * (first - (xi - 0.5 * width_)) - 1.0);
-  R sum = R::from(coefficients_.data() + static_cast<std::size_t>(degree_) * padded);
+  R* const sum = static_cast<R*>(rows);
+  Real z[3];
+  for (int d = 0; d < 3; ++d) z[d] = static_cast<Real>(2.0 * (first[d] - (xi[d] - 0.5 * width_)) - 1.0);
+  Real const* c = coefficients_.data() + static_cast<std::size_t>(degree_) * padded;
+  R x = R::from(c), y = x, w = x;
   for (int k = degree_ - 1; k >= 0; --k) {
-    R next = R::from(coefficients_.data() + static_cast<std::size_t>(k) * padded);
-    next.add_product(sum, z);
-    sum = next;
+    c -= padded;
+    R const next = R::from(c);
+    R nx = next, ny = next, nw = next;
+    nx.add_product(x, z[0]);
+    ny.add_product(y, z[1]);
+    nw.add_product(w, z[2]);
+    x = nx, y = ny, w = nw;
   }
-  return sum;
+  sum[0] = x, sum[1] = y, sum[2] = w;
 }
 
 template <class Real>
@@ -148,6 +161,7 @@ void GridWindow<Real>::spread_rows(Patch<Real> const& patch, long i_tile, PointA
   int const ty = static_cast<int>(i_tile % patch.tiles_y), tz = static_cast<int>(i_tile / patch.tiles_y);
   Range const ys = patch.tile_nodes(ty, 1), zs = patch.tile_nodes(tz, 2);
   long const row_length = row(patch), stride_y = components * row_length, stride_z = patch.nodes[1] * stride_y;
+  double const to_nodes = 1.0 / patch.spacing;
   for (long z = zs.begin; z < zs.end; ++z)
     std::fill_n(grid + z * stride_z + ys.begin * stride_y, ys.size() * stride_y, Real(0));
   for (int dz = 0; dz < std::min(2, patch.tiles_z); ++dz)
@@ -155,11 +169,17 @@ void GridWindow<Real>::spread_rows(Patch<Real> const& patch, long i_tile, PointA
       int const from = wrapped(tz - dz, patch.tiles_z) * patch.tiles_y + wrapped(ty - dy, patch.tiles_y);
       for (long k = patch.sources.tile_begin[from]; k < patch.sources.tile_begin[from + 1]; ++k) {
         std::uint32_t const i = patch.sources.index[k];
-        Vec3d const xi = (points[i] - patch.origin) / patch.spacing;
-        int x0 = 0, y0 = 0, z0 = 0;
+        Vec3d const xi = to_nodes * (points[i] - patch.origin);
+        int const first[3] = {first_node(xi.x), first_node(xi.y), first_node(xi.z)};
+        int const y0 = wrapped(first[1], patch.nodes[1]), z0 = wrapped(first[2], patch.nodes[2]);
+        if (!overlaps(y0, width_, ys, patch.nodes[1]) || !overlaps(z0, width_, zs, patch.nodes[2])) continue;
+        R w[3];
+        weights<padded>(xi, first, w);
         Real wy[padded], wz[padded];
-        weights<padded>(xi.y, y0).to(wy);
-        weights<padded>(xi.z, z0).to(wz);
+        w[1].to(wy);
+        w[2].to(wz);
+        R const wx = w[0];
+        int const x0 = wrapped(first[0], patch.nodes[0]);
         long offset_y[padded];
         Real weight_y[padded];
         int n_y = 0;
@@ -169,9 +189,6 @@ void GridWindow<Real>::spread_rows(Patch<Real> const& patch, long i_tile, PointA
           offset_y[n_y] = y * stride_y;
           weight_y[n_y++] = wy[j];
         }
-        if (n_y == 0) continue;
-        R const wx = weights<padded>(xi.x, x0);
-        x0 = wrapped(x0, patch.nodes[0]);
         Real const* f = strengths + static_cast<std::size_t>(i) * components;
         for (int j = 0; j < width_; ++j) {
           int const z = wrapped(z0 + j, patch.nodes[2]);
@@ -214,16 +231,19 @@ void GridWindow<Real>::interpolate_rows(Patch<Real> const& patch, long i_tile, P
                                         Real const* grid, int components, Vec3d* velocity) const {
   using R = Row<Real, padded>;
   long const row_length = row(patch), stride_y = components * row_length, stride_z = patch.nodes[1] * stride_y;
+  double const to_nodes = 1.0 / patch.spacing;
   for (long k = patch.targets.tile_begin[i_tile]; k < patch.targets.tile_begin[i_tile + 1]; ++k) {
     std::uint32_t const i = patch.targets.index[k];
-    Vec3d const xi = (points[i] - patch.origin) / patch.spacing;
-    int x0 = 0, y0 = 0, z0 = 0;
-    R const wx = weights<padded>(xi.x, x0);
+    Vec3d const xi = to_nodes * (points[i] - patch.origin);
+    int const first[3] = {first_node(xi.x), first_node(xi.y), first_node(xi.z)};
+    R w[3];
+    weights<padded>(xi, first, w);
+    R const wx = w[0];
     Real wy[padded], wz[padded];
-    weights<padded>(xi.y, y0).to(wy);
-    weights<padded>(xi.z, z0).to(wz);
+    w[1].to(wy);
+    w[2].to(wz);
     R sum[3] = {R::zero(), R::zero(), R::zero()};
-    Real const* const corner = grid + z0 * stride_z + y0 * stride_y + x0;
+    Real const* const corner = grid + first[2] * stride_z + first[1] * stride_y + first[0];
     for (int jz = 0; jz < width_; ++jz) {
       R plane[3] = {R::zero(), R::zero(), R::zero()};
       for (int jy = 0; jy < width_; ++jy)

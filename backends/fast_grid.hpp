@@ -46,7 +46,7 @@ class GridWindow {
   void interpolate_rows(Patch<Real> const& patch, long i_tile, PointArray const& points, Real const* grid,
                         int components, Vec3d* velocity) const;
   template <int padded>
-  auto weights(double xi, int& first) const;
+  void weights(Vec3d const& xi, int const (&first)[3], void* rows) const;
 
   int width_, padded_, degree_;
   double shape_;

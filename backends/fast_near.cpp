@@ -122,6 +122,10 @@ void NearField<Real>::set_points(Octree& tree, ConstPoints sources, ConstPoints 
     tree.reorder_targets(range, order);
   });
   copy_points(tree, sources, targets);
+  for (int d = 0; d < 3; ++d) {
+    filter_[d].assign(tree.sources().size() + lanes<float>, 0.0f);
+    for (std::size_t i = 0; i < tree.sources().size(); ++i) filter_[d][i] = static_cast<float>(tree.sources()[i][d]);
+  }
   parallel_for("NearField::set_points::list", static_cast<long>(boxes.size()),
                [&](long i) { leaves_[i] = list_sources(tree, boxes[i].first, *boxes[i].second); });
 }
@@ -178,11 +182,39 @@ std::vector<typename NearField<Real>::Candidates> NearField<Real>::candidates(Oc
 }
 
 template <class Real>
+void NearField<Real>::append_near(Range range, Vec3d const& centre, Vec3d const& half, double cutoff,
+                                  std::vector<std::uint32_t>& hits) const {
+  constexpr int n_lane = lanes<float>;
+  using F = Pack<float>;
+  float const slack = 4e-7f;  // rounding of normalised float coordinates
+  float const reach = static_cast<float>(cutoff) + slack;
+  std::size_t n_hit = hits.size();
+  hits.resize(n_hit + range.size() + n_lane);
+  F const zero{};
+  for (long s = range.begin; s < range.end; s += n_lane) {
+    F r2 = zero;
+    for (int d = 0; d < 3; ++d) {
+      F const offset = load(filter_[d].data() + s) - static_cast<float>(centre[d]);
+      F const size = offset > zero ? offset : -offset;
+      F const beyond = size - static_cast<float>(half[d]);
+      F const clipped = beyond > zero ? beyond : zero;
+      r2 += clipped * clipped;
+    }
+    int const n = static_cast<int>(std::min<long>(n_lane, range.end - s));
+    for (int i = 0; i < n; ++i) {
+      hits[n_hit] = static_cast<std::uint32_t>(s + i);
+      n_hit += r2[i] < reach * reach;
+    }
+  }
+  hits.resize(n_hit);
+}
+
+template <class Real>
 typename NearField<Real>::Leaf NearField<Real>::list_sources(Octree const& tree, int level, Box const& box) const {
   auto const near = candidates(tree, level, box);
-  PointArray const &targets = tree.targets(), &sources = tree.sources();
+  PointArray const& targets = tree.targets();
   Leaf leaf;
-  std::vector<std::uint32_t> hits;
+  int first_segment = 0;
   for (long t = box.targets.begin; t < box.targets.end; t += W) {
     int const n = static_cast<int>(std::min<long>(W, box.targets.end - t));
     Vec3d low = targets[t], high = low;
@@ -191,43 +223,33 @@ typename NearField<Real>::Leaf NearField<Real>::list_sources(Octree const& tree,
         low[d] = std::min(low[d], targets[t + i][d]);
         high[d] = std::max(high[d], targets[t + i][d]);
       }
-    Vec3d const centre = 0.5 * (low + high), half = 0.5 * (high - low);
-    auto const distance2 = [&](long s) {
-      double const x = std::max(std::abs(sources[s].x - centre.x) - half.x, 0.0);
-      double const y = std::max(std::abs(sources[s].y - centre.y) - half.y, 0.0);
-      double const z = std::max(std::abs(sources[s].z - centre.z) - half.z, 0.0);
-      return x * x + y * y + z * z;
-    };
     for (auto const& [l, range] : near) {
-      double const cutoff2 = std::ldexp(1.0, -2 * l);
-      hits.resize(range.size());
-      std::size_t n_hit = 0;
-      for (long s = range.begin; s < range.end; ++s) {
-        hits[n_hit] = static_cast<std::uint32_t>(s);
-        n_hit += distance2(s) < cutoff2;
-      }
+      std::size_t const before = leaf.sources.size();
+      append_near(range, 0.5 * (low + high), 0.5 * (high - low), std::ldexp(1.0, -l), leaf.sources);
       if constexpr (split_coordinates) {
-        auto const kept = std::stable_partition(hits.begin(), hits.begin() + static_cast<long>(n_hit), [&](std::uint32_t s) {
-          return !(distance2(s) < close_distance * close_distance && is_close(t, n, s));
+        auto const first = leaf.sources.begin() + static_cast<long>(before);
+        auto const kept = std::stable_partition(first, leaf.sources.end(), [&](std::uint32_t s) {
+          bool inside = true;
+          for (int d = 0; d < 3; ++d)
+            inside = inside && tree.sources()[s][d] > low[d] - 2.0 * close_distance &&
+                     tree.sources()[s][d] < high[d] + 2.0 * close_distance;
+          return !(inside && is_close(t, n, s));
         });
-        for (auto s = kept; s < hits.begin() + static_cast<long>(n_hit); ++s) {
-          leaf.close.push_back(*s);
-          leaf.close_levels.push_back(l);
-        }
-        n_hit = kept - hits.begin();
+        leaf.close.insert(leaf.close.end(), kept, leaf.sources.end());
+        leaf.close_levels.resize(leaf.close.size(), l);
+        leaf.sources.erase(kept, leaf.sources.end());
       }
-      if (n_hit == 0) continue;
-      leaf.sources.insert(leaf.sources.end(), hits.begin(), hits.begin() + static_cast<long>(n_hit));
+      if (leaf.sources.size() == before) continue;
       long const end = static_cast<long>(leaf.sources.size());
-      bool const joins = !leaf.segments.empty() && leaf.segments.back().level == l &&
-                         static_cast<int>(leaf.segments.size()) > (leaf.groups.empty() ? 0 : leaf.groups.back().segment_end);
-      if (joins)
+      if (static_cast<int>(leaf.segments.size()) > first_segment && leaf.segments.back().level == l)
         leaf.segments.back().end = end;
       else
         leaf.segments.push_back({l, end});
     }
-    leaf.groups.push_back({t, n, static_cast<int>(leaf.segments.size()), static_cast<long>(leaf.close.size())});
+    first_segment = static_cast<int>(leaf.segments.size());
+    leaf.groups.push_back({t, n, first_segment, static_cast<long>(leaf.close.size())});
   }
+  leaf.sources.shrink_to_fit();
   return leaf;
 }
 

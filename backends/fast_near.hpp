@@ -64,6 +64,10 @@ class NearField {
 
   std::vector<Candidates> candidates(Octree const& tree, int level, Box const& box) const;
   Leaf list_sources(Octree const& tree, int level, Box const& box) const;
+  // Appends the sources of `range` whose distance to the box (centre, half) is below `cutoff`, in
+  // normalised coordinates; a few beyond it may be included.
+  void append_near(Range range, Vec3d const& centre, Vec3d const& half, double cutoff,
+                   std::vector<std::uint32_t>& hits) const;
   bool is_close(long target, int n_target, std::uint32_t source) const;
   void copy_points(Octree const& tree, ConstPoints sources, ConstPoints targets);
   void make_levels(int n_level);
@@ -81,6 +85,7 @@ class NearField {
   std::vector<Level> levels_;
   std::vector<Leaf> leaves_;
   std::vector<Real> records_;
+  std::vector<float> filter_[3];  // normalised coordinates of the sources, for append_near
   // Coordinates that are the points' own up to a power of two, so that differences are exact.
   PointArray sources_, targets_;
   Vec3d const* strengths_ = nullptr;

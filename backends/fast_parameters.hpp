@@ -16,10 +16,9 @@ struct FastParameters {
   bool single;              // float arithmetic
   int refinement_steps;     // of the reciprocal square root, beyond the first for double
 
-  long capacity = 250;        // points of a leaf
+  long capacity = 200;        // points of a leaf, mean of sources and targets
   double max_nodes = 8e6;     // of one patch
-  int first_level = 0;        // level of the coarsest cutoff
-  double enlargement = 1.0;   // of the root
+  double enlargement = 0.0;   // of the root over the points; 0: the cheapest is sought
 };
 
 // For a relative error of `accuracy`, 1e-12 ... 1e-3.

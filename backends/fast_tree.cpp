@@ -75,6 +75,7 @@ Octree::Octree(ConstPoints sources, ConstPoints targets, OctreeOptions const& op
   double const widest = std::max({extent_.x, extent_.y, extent_.z});
   side_ = widest > 0.0 ? widest * options.enlargement * (1.0 + 1e-9) : 1.0;
   extent_ = extent_ / side_;
+  first_level_ = options.first_level;
   bool const same = sources.data() == targets.data() && sources.size() == targets.size();
   sort_points(sources, source_keys_, source_order_, sources_);
   if (same) {

@@ -40,6 +40,7 @@ class Octree {
   PointArray const& targets() const { return targets_; }
   std::vector<std::uint32_t> const& source_order() const { return source_order_; }  // original index of each
   std::vector<std::uint32_t> const& target_order() const { return target_order_; }
+  int first_level() const { return first_level_; }
   Vec3d extent() const { return extent_; }              // of all points, normalised
 
   // By level, sorted by key.
@@ -62,6 +63,7 @@ class Octree {
 
   Vec3d corner_, extent_;
   double side_ = 1.0;
+  int first_level_ = 0;
   PointArray sources_, targets_;
   std::vector<std::uint32_t> source_order_, target_order_;
   std::vector<std::uint64_t> source_keys_, target_keys_;
