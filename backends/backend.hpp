@@ -15,6 +15,7 @@ std::unique_ptr<Evaluator> make_direct_avx512(std::string_view kernel, double ac
 // Whether this build and this machine can run the backend.
 bool has_direct_avx2();
 bool has_direct_avx512();
+std::unique_ptr<Evaluator> make_automatic(std::string_view kernel, double accuracy);  // direct or fast
 std::unique_ptr<Evaluator> make_fast(std::string_view kernel, double accuracy);
 
 // What the pair loops of an instruction set ("avx2", "avx512") do for an accuracy where the points allow: for

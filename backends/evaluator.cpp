@@ -18,8 +18,8 @@ struct Backend {
 
 bool always() { return true; }
 
-// "auto" takes the first.
 constexpr std::array backends{
+    Backend{"auto", make_automatic, always},
     Backend{"direct", make_direct, always},
     Backend{"direct-avx512", make_direct_avx512, has_direct_avx512},
     Backend{"direct-avx2", make_direct_avx2, has_direct_avx2},
@@ -31,7 +31,7 @@ constexpr std::array backends{
 }  // namespace
 
 std::vector<std::string> backend_names() {
-  std::vector<std::string> names{"auto"};
+  std::vector<std::string> names;
   for (auto const& backend : backends)
     if (backend.is_available()) names.emplace_back(backend.name);
   return names;
@@ -43,7 +43,7 @@ std::unique_ptr<Evaluator> make_evaluator(std::string_view kernel, EvaluatorOpti
   if (!(options.accuracy >= 1e-15 && options.accuracy <= 1e-1))
     throw SceneError("accuracy: " + std::to_string(options.accuracy) + " is outside 1e-15 ... 1e-1");
   for (auto const& backend : backends)
-    if ((options.backend == backend.name || options.backend == "auto") && backend.is_available())
+    if (options.backend == backend.name && backend.is_available())
       return backend.make(kernel, options.accuracy);
   std::string known;
   for (auto const& name : backend_names()) known += (known.empty() ? "" : ", ") + name;

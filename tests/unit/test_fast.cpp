@@ -133,5 +133,14 @@ TEST_P(FastSum, of_nothing_is_nothing) {
   for (Vec3d const& u : sum(GetParam(), {"fast", 1e-6}, c)) EXPECT_EQ(norm(u), 0.0);
 }
 
+TEST(Automatic_sum, is_direct_for_few_points_and_fast_for_many) {
+  auto const evaluator = make_evaluator("stokeslet", {"auto", 1e-3});
+  Case const few = make_case("stokeslet", "uniform", 1000), many = make_case("stokeslet", "uniform", 9000);
+  evaluator->set_points(few.sources, few.sources);
+  EXPECT_NE(evaluator->backend(), "fast");
+  evaluator->set_points(many.sources, many.sources);
+  EXPECT_EQ(evaluator->backend(), "fast");
+}
+
 INSTANTIATE_TEST_SUITE_P(kernels, FastSum, testing::Values("stokeslet", "stresslet", "rotlet"),
                          [](auto const& kernel) { return kernel.param; });

@@ -1,0 +1,116 @@
+// Time and error of pair sums by every backend asked for. One JSON record per line on standard output:
+// set-up and execute seconds (wall and CPU over all threads, best of the repetitions), relative L2 error on
+// up to 2000 targets against the reference, bytes held.
+
+#include "bench/point_sets.hpp"
+
+#include "backends/evaluator.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/timer.hpp"
+
+#include <CLI/CLI.hpp>
+#include <Kokkos_Core.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+
+using namespace asterflow;
+
+namespace {
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+struct Choice {
+  std::vector<std::string> backends{"fast"}, kernels{"stokeslet"}, distributions{"uniform"};
+  std::vector<double> accuracies{1e-3, 1e-6, 1e-9}, counts{1e4, 1e5};
+  int repetitions = 3;
+  bool dry_run = false;
+};
+
+struct Problem {
+  PointArray points, strengths, normals;
+};
+
+Problem make_problem(std::string const& kernel, std::string const& distribution, long n) {
+  return {bench::points(distribution, n), bench::strengths(n), kernel == "stresslet" ? bench::normals(n) : PointArray{}};
+}
+
+double achieved_error(std::string const& kernel, Problem const& problem, PointArray const& velocity) {
+  std::size_t const n = problem.points.size(), stride = std::max<std::size_t>(1, n / 2000);
+  PointArray targets, some;
+  for (std::size_t i = 0; i < n; i += stride) {
+    targets.push_back(problem.points[i]);
+    some.push_back(velocity[i]);
+  }
+  PointArray exact(targets.size());
+  auto const reference = make_evaluator(kernel, {"reference", 1e-15});
+  reference->set_points(problem.points, targets, problem.normals);
+  reference->add_velocity(problem.strengths, exact);
+  auto const difference = flat(ConstPoints(some)) - flat(ConstPoints(exact));
+  return difference.norm() / flat(ConstPoints(exact)).norm();
+}
+
+void measure(Choice const& choice, std::string const& backend, std::string const& kernel, std::string const& distribution,
+             double accuracy, Problem const& problem) {
+  auto const evaluator = make_evaluator(kernel, {backend, accuracy});
+  PointArray velocity(problem.points.size());
+  double set_up_cpu = cpu_seconds();
+  Timer timer;
+  evaluator->set_points(problem.points, problem.points, problem.normals);
+  double const set_up = timer.seconds();
+  set_up_cpu = cpu_seconds() - set_up_cpu;
+  double wall = 1e300, cpu = 1e300;
+  for (int i = 0; i < choice.repetitions; ++i) {
+    std::fill(velocity.begin(), velocity.end(), Vec3d{});
+    double const before = cpu_seconds();
+    timer.restart();
+    evaluator->add_velocity(problem.strengths, velocity);
+    wall = std::min(wall, timer.seconds());
+    cpu = std::min(cpu, cpu_seconds() - before);
+  }
+  fmt::print("{{\"backend\": \"{}\", \"used\": \"{}\", \"kernel\": \"{}\", \"distribution\": \"{}\", \"n\": {}, "
+             "\"accuracy\": {:.1e}, \"error\": {:.2e}, \"set_up_seconds\": {:.4g}, \"set_up_cpu_seconds\": {:.4g}, "
+             "\"execute_seconds\": {:.4g}, \"execute_cpu_seconds\": {:.4g}, \"bytes\": {}, \"threads\": {}}}\n",
+             backend, evaluator->backend(), kernel, distribution, problem.points.size(), accuracy,
+             achieved_error(kernel, problem, velocity), set_up, set_up_cpu, wall, cpu, evaluator->memory(), thread_count());
+  std::fflush(stdout);
+}
+
+void run(Choice const& choice) {
+  for (auto const& kernel : choice.kernels)
+    for (auto const& distribution : choice.distributions)
+      for (double n : choice.counts) {
+        Problem const problem = make_problem(kernel, distribution, static_cast<long>(n));
+        for (double accuracy : choice.accuracies)
+          for (auto const& backend : choice.backends) measure(choice, backend, kernel, distribution, accuracy, problem);
+      }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Time and error of pair sums");
+  Choice choice;
+  app.add_option("--backend", choice.backends, "backends, see asterflow sum --help");
+  app.add_option("--kernel", choice.kernels, "stokeslet, stresslet, rotlet");
+  app.add_option("--distribution", choice.distributions, "uniform, sphere, aster, line, clusters");
+  app.add_option("--accuracy", choice.accuracies, "relative errors asked for");
+  app.add_option("-n,--count", choice.counts, "numbers of points");
+  app.add_option("--repetitions", choice.repetitions, "sums of which the best counts");
+  app.add_flag("--dry-run", choice.dry_run, "every kernel and distribution once with few points");
+  CLI11_PARSE(app, argc, argv);
+  if (choice.dry_run) {
+    choice = {{"fast", "auto"}, {"stokeslet", "stresslet", "rotlet"}, bench::distributions(), {1e-3}, {600}, 1, true};
+  }
+  Kokkos::ScopeGuard const kokkos;
+  try {
+    run(choice);
+  } catch (std::exception const& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
