@@ -3,9 +3,12 @@
 // map: boundary velocity at the surface's nodes -> velocity anywhere, at any distance, on the surface too.
 //   interior: data with net flux are met up to a multiple of the normal.
 //   exterior: net force and torque on the fluid follow from w (load); forces for viscosity 1.
-// All in the surface's own frame, lengths in um. Method: axisymmetric_dirichlet.hpp, shell_table.hpp.
+// All in the surface's own frame, lengths in um. Method: shell_operator.hpp, shell_table.hpp.
 
-#include "surface/axisymmetric_dirichlet.hpp"
+#include "surface/shell_operator.hpp"
+#include "surface/surface.hpp"
+
+#include <memory>
 
 namespace asterflow {
 
@@ -17,7 +20,7 @@ class DirichletFlow {
   // accuracy: relative, of everything but the resolution of w by the surface's nodes.
   DirichletFlow(Surface surface, Side side, double accuracy);
 
-  Surface const& surface() const { return surface_; }
+  Surface const& surface() const { return *surface_; }
   Side side() const { return side_; }
 
   // Fixed targets, ready for repeated evaluation.
@@ -48,11 +51,11 @@ class DirichletFlow {
   std::size_t memory() const;  // bytes
 
  private:
-  Surface surface_;
+  std::unique_ptr<Surface const> surface_;  // the operator refers to it
   Side side_;
   int n_shell_;
   ShellTable table_;
-  AxisymmetricDirichlet operator_;
+  std::unique_ptr<ShellOperator const> operator_;
   mutable std::vector<ShellMode> modes_;
   mutable ShellTable::Values values_;
 };

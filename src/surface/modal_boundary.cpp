@@ -90,26 +90,26 @@ MatrixXd ModalBoundary::assemble(int m, std::vector<ModalRowSet> const& rings) c
   return a;
 }
 
-std::vector<ModalBoundary::Mode> ModalBoundary::analyse(ConstPoints field) const {
-  ASTERFLOW_REQUIRE(field.size() == surface_.size());
-  auto const& grid = surface_.grid();
+std::vector<RingMode> analyse_modes(Surface const& surface, AzimuthTransform const& transform, ConstPoints field) {
+  ASTERFLOW_REQUIRE(field.size() == surface.size());
+  auto const& grid = surface.grid();
   int const n = grid.n_azimuth();
-  std::vector<Mode> modes(n_mode(), Mode(3 * n_mode(), 2));
+  std::vector<RingMode> modes(grid.n_ring(), RingMode(3 * grid.n_ring(), 2));
   std::vector<double> values(3 * n);
   std::vector<std::complex<double>> coefficients(n / 2 + 1);
-  for (int j = 0; j < n_mode(); ++j) {
+  for (int j = 0; j < grid.n_ring(); ++j) {
     for (int k = 0; k < n; ++k) {
-      Vec3d const w = surface_.to_polar(field[static_cast<std::size_t>(j) * n + k]);
+      Vec3d const w = surface.to_polar(field[static_cast<std::size_t>(j) * n + k]);
       double const c = std::cos(grid.azimuth(k)), s = std::sin(grid.azimuth(k));
       values[k] = w.x;
       values[n + k] = c * w.y + s * w.z;
       values[2 * n + k] = c * w.z - s * w.y;
     }
     for (int c = 0; c < 3; ++c) {
-      transform_.analyse(values.data() + c * n, coefficients.data());
-      for (int m = 0; m < n_mode(); ++m) {
+      transform.analyse(values.data() + c * n, coefficients.data());
+      for (int m = 0; m < grid.n_ring(); ++m) {
         auto const f = c < 2 ? coefficients[m] : coefficients[m] * std::complex(0.0, -1.0);
-        modes[m].row(c * n_mode() + j) << f.real(), f.imag();
+        modes[m].row(c * grid.n_ring() + j) << f.real(), f.imag();
       }
     }
   }

@@ -8,21 +8,24 @@
 
 #include "surface/azimuth_transform.hpp"
 #include "surface/modal_rows.hpp"
+#include "surface/shell_operator.hpp"
 
 namespace asterflow {
-
-enum class Side { interior, exterior };
 
 // Velocity at (z, r) from the centre of a unit force and a unit torque there (columns), viscosity 1: along e_1 (mode 0),
 // or along (e_2 + i e_3) and (e_3 - i e_2) (mode 1).
 Eigen::Matrix<double, 3, 2> modal_velocity_of_load(int mode, CylindricalPoint x);
 
+// Fourier coefficients of one mode on the rings, real and imaginary part. Rows: component * n_ring + ring.
+using RingMode = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+// Node values -> modes 0 ... p. transform: of n_azimuth values.
+std::vector<RingMode> analyse_modes(Surface const& surface, AzimuthTransform const& transform, ConstPoints field);
+
 class ModalBoundary {
  public:
   ModalBoundary(Surface const& surface, Side side, double digits);  // keeps a reference to the surface
 
-  // Fourier coefficients of one mode, real and imaginary part. Rows: component * n_ring + ring.
-  using Mode = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+  using Mode = RingMode;
   using LoadRows = Eigen::Matrix<double, 2, Eigen::Dynamic>;  // force, torque
 
   Surface const& surface() const { return surface_; }
@@ -30,7 +33,7 @@ class ModalBoundary {
   ModalRows const& rows() const { return rows_; }
   int n_mode() const { return surface_.grid().n_ring(); }
 
-  std::vector<Mode> analyse(ConstPoints field) const;                    // node values -> modes 0 ... p
+  std::vector<Mode> analyse(ConstPoints field) const { return analyse_modes(surface_, transform_, field); }
   void synthesise(std::vector<Mode> const& modes, Points field) const;   // overwrites
   Eigen::MatrixXd const& equation(int mode) const { return equations_[mode]; }
   LoadRows load_of_density(int mode) const;                              // modes 0 (axial) and 1 (transverse)

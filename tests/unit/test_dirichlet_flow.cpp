@@ -84,6 +84,11 @@ TEST(DirichletFlow, converges_spectrally_with_the_order) {
   EXPECT_LT(fine, coarse * 1e-5);  // the series falls by about 2.5 per order
 }
 
+TEST(DirichletFlow, triaxial_ellipsoid_meets_the_flow_of_a_point_force_on_both_sides) {
+  EXPECT_LT(field_error({1.3, 1.1, 1}, Side::interior, 8, 1e-5, 3.0), 1e-3);
+  EXPECT_LT(field_error({1.3, 1.1, 1}, Side::exterior, 8, 1e-5, 0.2), 3e-3);
+}
+
 TEST(DirichletFlow, low_order_serves_a_preconditioner) {
   EXPECT_LT(field_error({25, 15, 15}, Side::interior, 6, 1e-3, 3.0), 2e-2);
 }

@@ -1,0 +1,22 @@
+#pragma once
+// The precomputed solution of a Stokes-Dirichlet problem as a linear map: boundary velocity at the nodes of a surface ->
+// velocity on shells around it (shell_table.hpp). Exterior shell values are velocity / s, s = 1/rho, finite at infinity.
+
+#include "base/arrays.hpp"
+#include "surface/shell_table.hpp"
+
+namespace asterflow {
+
+enum class Side { interior, exterior };
+
+class ShellOperator {
+ public:
+  virtual ~ShellOperator() = default;
+  // Coefficients of all azimuthal modes on all shells; overwrites.
+  virtual void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const = 0;
+  // Exterior: force and torque about the centre, along (e_1, e_2, e_3), viscosity 1.
+  virtual Eigen::Matrix<double, 6, 1> load(ConstPoints boundary_velocity) const = 0;
+  virtual std::size_t memory() const = 0;  // bytes
+};
+
+}  // namespace asterflow
