@@ -49,7 +49,9 @@ TEST(Mobility, fibers_add_resistance_symmetrically_at_every_level) {
     auto const m =
         scene_mobility(parse_scene(sphere_in_ellipsoid + aster + "[run]\ninteractions = \"" + level + "\"\n", "test.toml"));
     EXPECT_LT((m.resistance - m.resistance.transpose()).norm(), 2e-2 * m.resistance.norm()) << level;
-    if (level != "local") EXPECT_GT(m.resistance(0, 0), last) << level;  // a no-slip wall only adds drag
+    if (level != "local") {
+      EXPECT_GT(m.resistance(0, 0), last) << level;  // a no-slip wall only adds drag
+    }
     last = m.resistance(0, 0);
   }
 }
