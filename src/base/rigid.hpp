@@ -23,6 +23,11 @@ inline Matrix3 cross_matrix(Vec3d a) {
   return m;
 }
 
+// U + Omega x r of a motion (U, Omega), at r from the centre.
+inline Vec3d velocity_of_motion(Vector6 const& motion, Vec3d from_centre) {
+  return to_vec3(motion.head<3>()) + cross(to_vec3(motion.tail<3>()), from_centre);
+}
+
 // Where a body is: position of its centre (um) and rotation from the body frame to space.
 struct RigidPose {
   Vec3d position;

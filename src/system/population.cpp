@@ -13,12 +13,7 @@ constexpr double cortex_margin = 0.1;
 // Growing fibers are resolved up to this length, um, whatever their length at the start.
 constexpr double resolved_length = 10.0;
 
-struct Pose {
-  Vec3d position;
-  Matrix3 rotation = Matrix3::Identity();
-};
-
-Pose pose_of(Scene const& scene, int body) {
+RigidPose pose_of(Scene const& scene, int body) {
   if (body < 0) return {};
   return {scene.bodies[body].position, scene.bodies[body].orientation.toRotationMatrix()};
 }
@@ -40,7 +35,7 @@ void add_single(Scene const& scene, FiberSpec const& spec, Fibers& fibers, std::
                                ? straight_centreline(spec.position, spec.direction, spec.length, properties.n_node)
                                : centreline_through(spec.points, properties.n_node);
   int const body = body_index(scene, spec.body);
-  Pose const pose = pose_of(scene, body);
+  RigidPose const pose = pose_of(scene, body);
   Matrix3 const back = pose.rotation.transpose();
   MinusEndSite const site{spec.material.minus_end, body, back * (shape.minus_end - pose.position),
                           back * shape.tangents.front()};
@@ -57,14 +52,14 @@ void add_scene_fibers(Scene const& scene, Fibers& fibers, std::optional<DynamicI
   for (std::size_t number = 0; number < scene.asters.size(); ++number) {
     auto const& aster = scene.asters[number];
     int const body = body_index(scene, aster.body);
-    Pose const pose = pose_of(scene, body);
+    RigidPose const pose = pose_of(scene, body);
     auto const properties = properties_of(scene, aster.material, aster.length);
     auto const reach = [&](MinusEndSite const& site) {
-      return placed.reach(pose.position + pose.rotation * site.position, pose.rotation * site.direction, 1e3) -
+      return placed.reach(pose.point(site.position), pose.rotation * site.direction, 1e3) -
              cortex_margin;
     };
     for (auto const& fiber : aster_fibers(aster, aster.count, body, scene.run.seed, number, reach)) {
-      auto const shape = straight_centreline(pose.position + pose.rotation * fiber.site.position,
+      auto const shape = straight_centreline(pose.point(fiber.site.position),
                                              pose.rotation * fiber.site.direction, fiber.length, properties.n_node);
       std::size_t const index = fibers.add(properties, fiber.site, shape);
       if (aster.material.growing && growth) growth->add(index, fiber.length);
@@ -91,8 +86,7 @@ std::vector<TipSurroundings> GrowthSurroundings::at_tips(Fibers const& fibers, D
     if (slope <= 0.05) return;
     surroundings[i].clearance = std::max(0.0, -wall.distance - cortex_margin) / slope;
     if (int const body = fibers.site(fiber).body; fibers.site(fiber).is_attached()) {
-      Vec3d const velocity = to_vec3(motions[body].head<3>()) +
-                             cross(to_vec3(motions[body].tail<3>()), tip - poses[body].position);
+      Vec3d const velocity = velocity_of_motion(motions[body], tip - poses[body].position);
       surroundings[i].approach_speed = dot(velocity, wall.normal) / slope;
     }
   });

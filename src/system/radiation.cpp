@@ -25,10 +25,6 @@ Vector6 rotated(Matrix3 const& rotation, Vector6 const& v) {
   return result;
 }
 
-Vec3d velocity_of_motion(Vector6 const& motion, Vec3d from_centre) {
-  return to_vec3(motion.head<3>()) + cross(to_vec3(motion.tail<3>()), from_centre);
-}
-
 }  // namespace
 
 Radiation::Radiation(std::vector<Flow> body_flows, Flow periphery_flow, RadiationOptions options)

@@ -7,10 +7,6 @@
 namespace asterflow {
 namespace {
 
-Vec3d velocity_at(Vector6 const& motion, Vec3d from_origin) {
-  return to_vec3(motion.head<3>()) + cross(to_vec3(motion.tail<3>()), from_origin);
-}
-
 // Least-squares solution: a straight thin fiber does not resist a turn about itself.
 Vector6 free_motion(Matrix6 const& resistance, Vector6 const& load) {
   Eigen::SelfAdjointEigenSolver<Matrix6> const eigen(resistance);
@@ -46,7 +42,7 @@ RigidFibers::RigidFibers(Fibers const& fibers, double viscosity, std::vector<Rig
     for (int k = 0; k < 6; ++k)
       for (std::size_t j = n; j < nodes_.size(); ++j)
         fiber.resistance.col(k) +=
-            load(fiber, j, drag(fiber, j, velocity_at(Vector6::Unit(k), nodes_[j] - fiber.origin)));
+            load(fiber, j, drag(fiber, j, velocity_of_motion(Vector6::Unit(k), nodes_[j] - fiber.origin)));
     fibers_.push_back(fiber);
   }
 }
@@ -75,7 +71,7 @@ void RigidFibers::add_linear_response(ConstPoints u, std::span<Vector6 const> mo
       received.setZero();
     }
     for (std::size_t j = first_[i]; j < first_[i + 1]; ++j) {
-      Vec3d const force = drag(fiber, j, velocity_at(motion, nodes_[j] - fiber.origin) - u[j]);
+      Vec3d const force = drag(fiber, j, velocity_of_motion(motion, nodes_[j] - fiber.origin) - u[j]);
       f[j] += force;
       received -= load(fiber, j, force);
     }

@@ -7,23 +7,6 @@
 namespace asterflow {
 namespace {
 
-// Tension T = F . t - E |X_ss|^2 at the nodes, pN, with F(s) = F_tip - int_s^L (f - f_applied) ds'.
-void append_tension(Fibers const& fibers, std::size_t i, ConstPoints force_density, std::vector<double>& tension) {
-  auto const& shape = fibers.shape(i);
-  auto const& properties = fibers.properties(i);
-  FiberBasis const& basis = fiber_basis(properties.n_node);
-  Eigen::MatrixX3d tangents(basis.n_tangent, 3), elastic(basis.n_node, 3);
-  for (int k = 0; k < basis.n_tangent; ++k) tangents.row(k) = to_eigen(shape.tangents[k]);
-  for (int k = 0; k < basis.n_node; ++k)
-    elastic.row(k) = to_eigen(force_density[fibers.first_node(i) + k] - properties.load.external);
-  Eigen::MatrixX3d const t = basis.tangent * tangents, curvature = basis.derivative * tangents / shape.length;
-  Eigen::MatrixX3d const beyond = shape.length * (basis.remainder * elastic);
-  for (int k = 0; k < basis.n_node; ++k) {
-    Eigen::Vector3d const force = to_eigen(properties.tip.force) - beyond.row(k).transpose();
-    tension.push_back(force.dot(t.row(k)) - properties.bending_rigidity * curvature.row(k).squaredNorm());
-  }
-}
-
 NamedArray numbers(std::string name, std::vector<double> values) {
   return NamedArray::of(std::move(name), std::move(values), "");
 }
@@ -78,11 +61,11 @@ std::vector<NamedArray> Simulation::fiber_frame() const {
     minus_ends.push_back(shape.minus_end);
     plus_ends.push_back(plus_end(shape));
     holders.push_back(fibers_.site(i).is_attached() ? fibers_.site(i).body : -1);
+    ConstVector const own = fibers_.tension(i);
+    tension.insert(tension.end(), own.begin(), own.end());
+    tension.resize(positions.size());  // none before the first step, as the forces
   }
-  forces.resize(positions.size());  // no forces before the first step
-  for (std::size_t i = 0; i < fibers_.count(); ++i)
-    if (time_ > 0) append_tension(fibers_, i, forces, tension);
-  tension.resize(positions.size());
+  forces.resize(positions.size());
   return {NamedArray::of("fiber/first", first),
           NamedArray::of("fiber/length", lengths, "um"),
           NamedArray::of("fiber/body", holders),
