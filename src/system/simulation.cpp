@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/timer.hpp"
+#include "fiber/fiber_basis.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,13 +38,14 @@ class SteppedFibers final : public FiberAnswers {
 
 struct Simulation::Trial {
   double dt = 0.0;
-  double error = 0.0;
+  double error = 0.0;     // um
+  std::string misplaced;  // what is not where it may be; then nothing else is known
   ScatteringSolution solution;
 };
 
 Simulation::Simulation(Scene scene)
     : scene_(std::move(scene)), fibers_(scene_.fluid.viscosity), surroundings_(scene_),
-      flows_(make_flows(scene_, Resolution::fine)) {
+      placement_(scene_), flows_(make_flows(scene_, Resolution::fine)) {
   auto const& run = scene_.run;
   for (auto const& body : scene_.bodies) bodies_.emplace_back(body);
   if (scene_.background) background_.emplace(*scene_.background);
@@ -101,14 +103,41 @@ PointArray Simulation::guess(double dt) const {
   return z;
 }
 
-Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
-  Timer const timer;
-  Radiation::Seconds const before = radiation_.fine ? radiation_.fine->seconds() : Radiation::Seconds{};
-  std::vector<BodyMotionMap> maps;
-  for (auto& body : bodies_) maps.push_back(body.predict(dt));
-  plan_fibers(dt);
-  fibers_.prepare(dt, maps);
+std::string Simulation::misplaced_prediction(std::vector<BodyMotionMap> const& maps) const {
+  std::vector<RigidPose> poses;
+  for (auto const& map : maps) poses.push_back(map.predicted);
+  std::string words = placement_.complaint(poses);
+  if (!placement_.checks_fibers()) return words;
+  for (std::size_t i = 0; i < fibers_.count() && words.empty(); ++i) {
+    std::size_t const first = fibers_.first_node(i);
+    words = placement_.complaint(i, fibers_.nodes().subspan(first, fibers_.first_node(i + 1) - first), poses);
+  }
+  return words;
+}
 
+std::string Simulation::misplaced_trial() const {
+  std::vector<RigidPose> poses;
+  for (auto const& body : bodies_) poses.push_back(body.trial_pose());
+  std::string words = placement_.complaint(poses);
+  if (!placement_.checks_fibers()) return words;
+  PointArray positions;
+  std::vector<double> coordinates;
+  for (std::size_t i = 0; i < fibers_.count() && words.empty(); ++i) {
+    Centreline const& shape = fibers_.trial_shape(i);
+    auto const& nodes = fiber_basis(fibers_.properties(i).n_node).gauss.nodes;
+    coordinates.clear();
+    for (double alpha : nodes) coordinates.push_back(alpha * shape.length);
+    coordinates.push_back(shape.length);
+    positions.resize(coordinates.size());
+    sample(shape, coordinates, positions, {});
+    words = placement_.complaint(i, positions, poses);
+  }
+  return words;
+}
+
+ScatteringSolution Simulation::solve(double dt, std::vector<BodyMotionMap> const& maps, StepReport& report) {
+  Radiation::Seconds const before = radiation_.fine ? radiation_.fine->seconds() : Radiation::Seconds{};
+  Timer const timer;
   SteppedFibers const answers(fibers_);
   Scattering scattering(answers, drives(maps), radiation_.fine.get(), radiation_.coarse.get(),
                         {.tolerance = scene_.run.gmres_tolerance, .max_iterations = scene_.run.gmres_max_iterations});
@@ -120,14 +149,16 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
     background_->add_velocity(nodes, imposed);
   }
   PointArray const start = guess(dt);
-  Trial trial{dt, 0.0, scattering.solve(imposed, start.size() == nodes.size() ? start : PointArray{})};
-
+  auto solution = scattering.solve(imposed, start.size() == nodes.size() ? start : PointArray{});
   if (radiation_.fine) {
     report.sum_seconds += radiation_.fine->seconds().sums - before.sums;
     report.surface_seconds += radiation_.fine->seconds().surfaces - before.surfaces;
-    report.coarse_seconds += trial.solution.coarse_seconds;
+    report.coarse_seconds += solution.coarse_seconds;
   }
+  return solution;
+}
 
+void Simulation::advance(Trial& trial) {
   std::vector<RigidPose> poses;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     bodies_[b].advance(trial.solution.motions[b]);
@@ -136,6 +167,21 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   }
   fibers_.advance(ConstPoints(trial.solution.incident).first(fibers_.node_count()), trial.solution.motions, poses);
   trial.error = std::max(trial.error, fibers_.error_estimate());
+}
+
+Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
+  Timer const timer;
+  Trial trial{.dt = dt, .error = 0.0, .misplaced = {}, .solution = {}};
+  std::vector<BodyMotionMap> maps;
+  for (auto& body : bodies_) maps.push_back(body.predict(dt));
+  plan_fibers(dt);
+  fibers_.prepare(dt, maps);
+  trial.misplaced = misplaced_prediction(maps);
+  report.prepare_seconds += timer.seconds();
+  if (!trial.misplaced.empty()) return trial;
+  trial.solution = solve(dt, maps, report);
+  advance(trial);
+  trial.misplaced = misplaced_trial();
   return trial;
 }
 
@@ -149,6 +195,18 @@ void Simulation::accept(Trial&& trial) {
   last_ = std::move(trial.solution);
 }
 
+// Why a trial step is not accepted; "" when it is.
+std::string Simulation::objection(Trial const& trial) const {
+  auto const& run = scene_.run;
+  auto const& gmres = trial.solution.gmres;
+  if (!trial.misplaced.empty()) return trial.misplaced;
+  if (!gmres.converged)
+    return fmt::format("GMRES stopped after {} iterations at residual {:.3g}", gmres.iterations, gmres.residual);
+  if (run.adaptive && !(trial.error <= run.step_tolerance))
+    return fmt::format("error {:.3g} um exceeds {:.3g} um", trial.error, run.step_tolerance);
+  return {};
+}
+
 StepReport Simulation::step(double until) {
   Timer const timer;
   auto const& run = scene_.run;
@@ -157,11 +215,11 @@ StepReport Simulation::step(double until) {
     bool const is_last = time_ + dt_ * (1 + 1e-9) >= until;
     double const dt = is_last ? until - time_ : dt_;
     Trial trial = attempt(dt, report);
-    bool const converged = trial.solution.gmres.converged;
-    bool const accurate = !run.adaptive || trial.error <= run.step_tolerance;
+    std::string const objection = this->objection(trial);
+    bool const is_solved = trial.misplaced.empty() && trial.solution.gmres.converged;
     // The local error of a second-order step goes with dt^3.
     double const ideal = dt * std::clamp(0.9 * std::cbrt(run.step_tolerance / std::max(trial.error, 1e-300)), 0.3, 2.0);
-    if (converged && accurate) {
+    if (objection.empty()) {
       report.dt = dt;
       report.error = trial.error;
       report.iterations = trial.solution.gmres.iterations;
@@ -175,14 +233,10 @@ StepReport Simulation::step(double until) {
       return report;
     }
     ++report.rejected;
-    dt_ = converged ? ideal : dt / 2;
+    dt_ = is_solved ? ideal : dt / 2;
     if (!run.adaptive || dt_ < run.min_time_step)
-      throw NumericalError(fmt::format("t = {:.6g} s: no step down to dt = {:.3g} s is accepted: {}", time_, dt,
-                                       converged ? fmt::format("error {:.3g} um exceeds {:.3g} um", trial.error,
-                                                               run.step_tolerance)
-                                                 : fmt::format("GMRES stopped after {} iterations at residual {:.3g}",
-                                                               trial.solution.gmres.iterations,
-                                                               trial.solution.gmres.residual)));
+      throw NumericalError(
+          fmt::format("t = {:.6g} s: no step down to dt = {:.3g} s is accepted: {}", time_, dt, objection));
   }
 }
 

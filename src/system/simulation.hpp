@@ -3,7 +3,8 @@
 //   1 predict   bodies and fibers at the new time; lengths from growth and chance
 //   2 solve     the coupled scattering problem at the predicted geometry (scattering.hpp)
 //   3 advance   bodies and fibers into a trial state
-//   4 judge     converged? error below the step tolerance? -> accept; else smaller dt, nothing to restore
+//   4 judge     all in its place? converged? error below the step tolerance? -> accept; else smaller dt, nothing to
+//               restore
 
 #include "background/background_flow.hpp"
 #include "body/rigid_body.hpp"
@@ -12,6 +13,7 @@
 #include "fiber/fibers.hpp"
 #include "io/scene.hpp"
 #include "system/flows.hpp"
+#include "system/placement.hpp"
 #include "system/population.hpp"
 #include "system/scattering.hpp"
 
@@ -65,6 +67,11 @@ class Simulation {
   void plan_fibers(double dt);
   std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps) const;
   Trial attempt(double dt, StepReport& report);
+  ScatteringSolution solve(double dt, std::vector<BodyMotionMap> const& maps, StepReport& report);
+  void advance(Trial& trial);
+  std::string misplaced_prediction(std::vector<BodyMotionMap> const& maps) const;
+  std::string misplaced_trial() const;
+  std::string objection(Trial const& trial) const;
   PointArray guess(double dt) const;
   void accept(Trial&& trial);
 
@@ -73,6 +80,7 @@ class Simulation {
   Fibers fibers_;
   std::optional<DynamicInstability> growth_;
   GrowthSurroundings surroundings_;
+  Placement placement_;
   std::optional<BackgroundFlow> background_;
   SceneFlows flows_;
   SceneRadiation radiation_;
