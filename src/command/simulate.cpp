@@ -3,12 +3,14 @@
 #include "base/error.hpp"
 #include "command/plane_flow.hpp"
 #include "command/progress.hpp"
+#include "system/no_slip.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <csignal>
 #include <fmt/format.h>
+#include <optional>
 
 namespace asterflow {
 
@@ -28,10 +30,28 @@ double next_output(double time, double interval, double end_time) {
   return std::min(n * interval, end_time);
 }
 
+// None before the first step, in a `local` scene and without surfaces.
+std::optional<NoSlipResidual> no_slip_of(Simulation const& simulation, Frame const& frame) {
+  bool const has_flow = simulation.scene().run.interactions != Interactions::local && frame.time > 0.0;
+  if (!has_flow || (simulation.flows().bodies.empty() && !simulation.flows().periphery)) return std::nullopt;
+  return no_slip_residual(StoredFlow(simulation.scene(), simulation.flows(), frame));
+}
+
+void print_no_slip(Simulation const& simulation) {
+  auto const residual = no_slip_of(simulation, {simulation.time(), simulation.frame()});
+  if (!residual) return;
+  fmt::print(stderr, "no slip between the nodes: {:.1e} of {:.3g} um/s (bodies {:.1e}, periphery {:.1e} um/s)\n",
+             residual->relative(), residual->speed, residual->bodies, residual->periphery);
+}
+
 }  // namespace
 
 void store_state(Simulation const& simulation, TrajectoryWriter& trajectory) {
-  trajectory.append({simulation.time(), simulation.frame()}, simulation.restart());
+  Frame frame{simulation.time(), simulation.frame()};
+  if (auto const residual = no_slip_of(simulation, frame))
+    frame.arrays.push_back(
+        NamedArray::of("flow/no_slip_residual", std::vector{residual->bodies, residual->periphery, residual->speed}, "um/s"));
+  trajectory.append(std::move(frame), simulation.restart());
 }
 
 int simulate(Simulation& simulation, TrajectoryWriter& trajectory, std::filesystem::path const& folder) {
@@ -63,6 +83,7 @@ int simulate(Simulation& simulation, TrajectoryWriter& trajectory, std::filesyst
   }
   progress.finish();
   fmt::print(stderr, "{} steps in {}\n", progress.steps(), duration_words(progress.seconds()));
+  print_no_slip(simulation);
   return 0;
 }
 

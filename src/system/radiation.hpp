@@ -48,6 +48,7 @@ class Radiation {
   std::size_t first_body_node(std::size_t body) const { return first_[body]; }
   std::size_t first_periphery_node() const { return first_.back(); }
   bool has_periphery() const { return periphery_ != nullptr; }
+  RigidPose const& body_pose(std::size_t body) const { return poses_[body]; }
   Surface const& body_surface(std::size_t body) const { return bodies_[body]->surface(); }
   Surface const& periphery_surface() const { return periphery_->surface(); }
 

@@ -42,6 +42,7 @@ class Simulation {
   Scene const& scene() const { return scene_; }
   double time() const { return time_; }  // s
   Fibers const& fibers() const { return fibers_; }
+  SceneFlows const& flows() const { return flows_; }
   std::vector<RigidBody> const& bodies() const { return bodies_; }
 
   // Of a body without its fibers in unbounded fluid, in the given pose.

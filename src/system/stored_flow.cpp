@@ -3,20 +3,21 @@
 #include "background/background_flow.hpp"
 #include "base/error.hpp"
 #include "io/frame.hpp"
-#include "system/flows.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace asterflow {
 
-StoredFlow::StoredFlow(Scene const& scene, Frame const& frame) : scene_(scene) {
+StoredFlow::StoredFlow(Scene const& scene, Frame const& frame)
+    : StoredFlow(scene, make_flows(scene, Resolution::fine), frame) {}
+
+StoredFlow::StoredFlow(Scene const& scene, SceneFlows const& flows, Frame const& frame) : scene_(scene) {
   if (scene.run.interactions == Interactions::local)
     throw SceneError(scene.file + ": interactions = \"local\" models no flow; run the scene with open or confined");
   if (frame.time == 0.0)
     throw SceneError(fmt::format("{}: the state at t = 0 was stored before the first solve; choose a later --time",
                                  scene.file));
-  auto const flows = make_flows(scene, Resolution::fine);
   radiation_ = std::make_unique<Radiation>(
       flows.bodies, flows.periphery,
       RadiationOptions{scene.fluid.viscosity, scene.run.evaluator, scene.run.evaluator_accuracy});

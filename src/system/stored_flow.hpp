@@ -3,7 +3,7 @@
 
 #include "io/scene.hpp"
 #include "io/trajectory.hpp"
-#include "system/radiation.hpp"
+#include "system/flows.hpp"
 
 #include <memory>
 
@@ -13,9 +13,16 @@ class StoredFlow {
  public:
   // Throws SceneError when the state holds no flow: level `local`, or stored before the first solve.
   StoredFlow(Scene const& scene, Frame const& frame);
+  // The same with the surfaces' flows at hand.
+  StoredFlow(Scene const& scene, SceneFlows const& flows, Frame const& frame);
 
   // velocity [n] (um/s) at points [n] of the fluid, overwritten.
   void velocity(ConstPoints points, Points velocity) const;
+
+  Radiation const& radiation() const { return *radiation_; }
+  std::vector<Vector6> const& motions() const { return motions_; }  // [n_body] um/s, 1/s
+  // Flow of all other objects at the nodes of bodies and periphery, um/s.
+  ConstPoints surface_incident() const { return ConstPoints(incident_).subspan(force_density_.size()); }
 
  private:
   Scene scene_;
