@@ -10,6 +10,7 @@
 #include "command/resume.hpp"
 #include "command/run.hpp"
 #include "command/sum.hpp"
+#include "command/torque.hpp"
 #include "io/versions.hpp"
 
 #include <Kokkos_Core.hpp>
@@ -45,7 +46,8 @@ int run(int argc, char** argv) {
       "Threads: set OMP_NUM_THREADS.\n");
   for (auto const add : {asterflow::add_run_command, asterflow::add_resume_command, asterflow::add_check_command,
                          asterflow::add_mobility_command, asterflow::add_flow_command, asterflow::add_drag_command,
-                         asterflow::add_export_command, asterflow::add_sum_command})
+                         asterflow::add_export_command, asterflow::add_sum_command,
+                         asterflow::add_torque_command})
     add(program, chosen);
   try {
     program.parse(argc, argv);

@@ -51,6 +51,18 @@ class Scenes(CommandTest):
         self.expect_refusal("drag", scene, "-o", self.folder / "drag", names=["[drag]", "periphery"])
         self.expect_refusal("drag", SCENES / "figure2.toml", "--set", "drag.body=pcn", names=["[drag]", "pcn", "pnc"])
 
+    def test_the_torque_instability_writes_a_table_and_a_picture(self):
+        out = self.folder / "torque"
+        scene = SCENES / "torque_instability.toml"
+        printed = self.expect_done("torque", scene, "-o", out, "--angles", 5).stdout
+        self.assertEqual([line.split()[-1] for line in printed.splitlines()[:3]], ["unstable", "stable", "unstable"])
+        with open(out / "torque.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([float(row["angle_degrees"]) for row in rows], [-90, -45, 0, 45, 90])
+        self.assertTrue((out / "torque.png").exists())
+        self.expect_refusal("torque", scene, "-o", out, names=["torque.csv", "is there already"])
+        self.expect_refusal("torque", SCENES / "sphere.toml", "-o", self.folder / "none", names=["periphery"])
+
 
 if __name__ == "__main__":
     unittest.main()
