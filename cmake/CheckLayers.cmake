@@ -2,7 +2,7 @@
 #   usage: cmake -DSOURCE=<repository> -P CheckLayers.cmake
 # A file may include  "folder/..."  of the folders named, and of a folder named with _spec only its
 # specs ("folder/..._spec.hpp"). Two components (fiber, body, periphery, background) never meet but in
-# interaction and system; only system and command sum pairs (io knows the names of the backends).
+# mechanism and system; only system and command sum pairs (io knows the names of the backends).
 cmake_minimum_required(VERSION 3.22)
 set(base        "")
 set(kernels     base)
@@ -13,9 +13,9 @@ set(fiber       base kernels linalg surface)
 set(body        base kernels linalg surface)
 set(periphery   base kernels linalg surface)
 set(background  base kernels linalg surface)
-set(interaction base kernels linalg surface fiber body periphery)
-set(io          base surface fiber_spec body_spec periphery_spec background_spec interaction_spec backends)
-set(system      base kernels linalg surface fiber body periphery background interaction io backends)
+set(mechanism   base kernels linalg surface fiber body periphery)
+set(io          base surface fiber_spec body_spec periphery_spec background_spec mechanism_spec backends)
+set(system      base kernels linalg surface fiber body periphery background mechanism io backends)
 set(command     ${system} system)
 
 set(n_violation 0)

@@ -30,6 +30,8 @@ void DynamicInstability::add(std::size_t fiber, double length) {
   ASTERFLOW_REQUIRE(length > 0);
   Tip tip{.fiber = fiber, .length = std::max(length, spec_.minimal_length)};
   tip.is_growing = uniform_random(seed_, fiber, 0, first_phase) >= spec_.initially_shrinking;
+  if (tip_of_fiber_.size() <= fiber) tip_of_fiber_.resize(fiber + 1, -1);
+  tip_of_fiber_[fiber] = static_cast<int>(now_.size());
   now_.push_back(tip);
   trial_ = now_;
 }
@@ -78,6 +80,11 @@ void DynamicInstability::plan(Fibers& fibers) const {
     plan.length = tip.length;
     plan.is_newborn = tip.is_newborn;
   }
+}
+
+TipState DynamicInstability::state_of(std::size_t fiber) const {
+  if (fiber >= tip_of_fiber_.size() || tip_of_fiber_[fiber] < 0) return TipState::still;
+  return now_[tip_of_fiber_[fiber]].is_growing ? TipState::growing : TipState::shrinking;
 }
 
 std::vector<NamedArray> DynamicInstability::state() const {

@@ -8,6 +8,7 @@
 
 #include "base/named_array.hpp"
 #include "fiber/dynamic_instability_spec.hpp"
+#include "fiber/fiber_ends.hpp"
 
 #include <limits>
 #include <span>
@@ -51,6 +52,8 @@ class DynamicInstability {
   std::vector<Tip> const& tips() const { return now_; }
   std::vector<Tip> const& trial_tips() const { return trial_; }
 
+  TipState state_of(std::size_t fiber) const;  // at the last accepted time
+
   // State at the last accepted time, and back; the same fibers must have been added.
   std::vector<NamedArray> state() const;
   void restore(std::span<NamedArray const> state);
@@ -61,6 +64,7 @@ class DynamicInstability {
   DynamicInstabilitySpec spec_;
   std::uint64_t seed_;
   std::vector<Tip> now_, trial_;
+  std::vector<int> tip_of_fiber_;  // [largest fiber + 1], -1: none
 };
 
 }  // namespace asterflow

@@ -35,4 +35,20 @@ struct FiberLoad {
   double motor = 0.0;  // along the tangent, towards the plus end
 };
 
+// What a plus end does. The numbers are those of stored states.
+enum class TipState : int {
+  still = 0,      // neither grows nor shrinks
+  growing = 1,    // away from the cortex
+  shrinking = 2,
+  pushing = 3,    // grows against the cortex
+  captured = 4,   // held and pulled by a cortical site
+};
+
+// What the ends of a fiber feel and pass on.
+struct EndForces {
+  Vec3d plus_end{};          // pN, on the plus end
+  Vec3d minus_end{};         // pN, of the fiber on what holds its minus end: F(0) = T X_s - E X_sss
+  Vec3d minus_end_torque{};  // pN um, about the minus end
+};
+
 }  // namespace asterflow

@@ -326,7 +326,8 @@ Vec3d FiberResponse::tip_force(ConstPoints u, Vector6 const& q) const {
   return step_.tip.force - step_.tip.stiffness * (tip - step_.tip.anchor);
 }
 
-void FiberResponse::tension(ConstPoints u, Vector6 const& q, Centreline const& shape, Vector tension) const {
+EndForces FiberResponse::internal_forces(ConstPoints u, Vector6 const& q, Centreline const& shape,
+                                         Vector tension) const {
   FiberBasis const& basis = *step_.basis;
   int const n = basis.n_node;
   std::array<Vec3d, max_fiber_nodes> force{};  // per length, on the fluid
@@ -344,6 +345,12 @@ void FiberResponse::tension(ConstPoints u, Vector6 const& q, Centreline const& s
     }
     tension[i] = dot(internal, tangent) - step_.bending_rigidity * dot(bend, bend);
   }
+  EndForces ends{tip, tip, cross(plus_end_ - minus_end_, tip)};
+  for (int i = 0; i < n; ++i) {
+    ends.minus_end -= weights_[i] * force[i];
+    ends.minus_end_torque -= weights_[i] * cross(nodes_[i] - minus_end_, force[i]);
+  }
+  return ends;
 }
 
 void FiberResponse::advance(ConstPoints u, Vector6 const& q, RigidPose const* new_pose, Centreline const& predicted,

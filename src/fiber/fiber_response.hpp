@@ -56,7 +56,8 @@ class FiberResponse {
   // Force on the plus end, pN, at the new time level.
   Vec3d tip_force(ConstPoints u, Vector6 const& q) const;
   // tension [n_node], pN, overwritten: T = F . X_s - E |X_ss|^2, with the force F(s) that the part beyond s exerts.
-  void tension(ConstPoints u, Vector6 const& q, Centreline const& shape, Vector tension) const;
+  // Returns the forces at the ends, as the load of the body has them.
+  EndForces internal_forces(ConstPoints u, Vector6 const& q, Centreline const& shape, Vector tension) const;
 
  private:
   // As long as a fiber has unknowns, without allocation.

@@ -182,8 +182,8 @@ void Fibers::advance(ConstPoints u, std::span<Vector6 const> q, std::span<RigidP
     Vector6 const motion = site.is_attached() ? q[site.body] : Vector6::Zero();
     fiber.response.advance(u.subspan(first_node_[i], fiber.properties.n_node), motion,
                            site.is_attached() ? &poses[site.body] : nullptr, fiber.predicted, fiber.trial);
-    fiber.response.tension(u.subspan(first_node_[i], fiber.properties.n_node), motion, fiber.trial,
-                           fiber.trial_tension);
+    fiber.trial_ends = fiber.response.internal_forces(u.subspan(first_node_[i], fiber.properties.n_node), motion,
+                                                      fiber.trial, fiber.trial_tension);
     estimate_error(fiber);
   });
 }
@@ -215,6 +215,8 @@ void Fibers::accept() {
     std::swap(fiber.past[1], fiber.past[0]);
     std::swap(fiber.past[0], fiber.trial);
     std::swap(fiber.tension, fiber.trial_tension);
+    fiber.ends = fiber.trial_ends;
+    fiber.load = fiber.plan.load;
     fiber.n_past = std::min(fiber.n_past + 1, 3);
   }
   dt_2_ = dt_1_;

@@ -78,7 +78,10 @@ class Fibers {
   MinusEndSite const& site(std::size_t fiber) const { return fibers_[fiber].site; }
   FiberProperties const& properties(std::size_t fiber) const { return fibers_[fiber].properties; }
   ConstVector tension(std::size_t fiber) const { return fibers_[fiber].tension; }  // [n_node] pN, positive: stretched
-  double elastic_energy() const;                                                   // pN um
+  // Of the last step; nothing before the first one.
+  EndForces const& ends(std::size_t fiber) const { return fibers_[fiber].ends; }
+  FiberLoad const& load(std::size_t fiber) const { return fibers_[fiber].load; }
+  double elastic_energy() const;  // pN um
 
   // Everything that an exact restart needs, and back into fibers added in the same order.
   std::vector<NamedArray> state() const;
@@ -95,10 +98,14 @@ class Fibers {
     PointArray history, extrapolated, sampled;   // [n_node] a1 X_now + a2 X_before; quadratic extrapolation; buffer
     std::vector<double> coordinates;             // [n_node] buffer
     std::vector<double> tension, trial_tension;  // [n_node] pN
+    EndForces ends, trial_ends;
+    FiberLoad load;
     FiberResponse response;
     double error = 0.0;  // um
   };
 
+  NamedArray stored_ends() const;
+  NamedArray stored_loads() const;
   void lay_out();
   void predict(Fiber& fiber, std::span<BodyMotionMap const> bodies) const;
   void set_history(Fiber& fiber, TimeScheme const& scheme) const;

@@ -1,6 +1,7 @@
 // What is stored of fibers, and how it comes back.
 //   fiber/length [n_fiber] um, fiber/minus_end [n_fiber, 3] um, fiber/tangent [n_tangent_total, 3]: the shapes
 //   fiber/tension [n_node_total] pN, positive where stretched
+//   fiber/ends [n_fiber, 9] pN, pN, pN um: forces at the ends; fiber/load [n_fiber, 4] pN/um
 //   fiber/history/...: the same of the two accepted states before, how many of them count, and their time steps
 //   fiber/site/...: what holds the minus ends
 
@@ -30,6 +31,23 @@ Vec3d point(std::vector<double> const& values, std::size_t i) {
 
 }  // namespace
 
+NamedArray Fibers::stored_ends() const {
+  std::vector<double> values;
+  for (Fiber const& fiber : fibers_)
+    for (Vec3d v : {fiber.ends.plus_end, fiber.ends.minus_end, fiber.ends.minus_end_torque})
+      values.insert(values.end(), {v.x, v.y, v.z});
+  return {"fiber/ends", {count(), 9}, values, ""};
+}
+
+NamedArray Fibers::stored_loads() const {
+  std::vector<double> values;
+  for (Fiber const& fiber : fibers_) {
+    Vec3d const f = fiber.load.external;
+    values.insert(values.end(), {f.x, f.y, f.z, fiber.load.motor});
+  }
+  return {"fiber/load", {count(), 4}, values, "pN/um"};
+}
+
 std::vector<NamedArray> Fibers::state() const {
   std::vector<NamedArray> arrays;
   for (int past = 0; past < 3; ++past) {
@@ -49,6 +67,8 @@ std::vector<NamedArray> Fibers::state() const {
   std::vector<double> tensions;
   for (Fiber const& fiber : fibers_) tensions.insert(tensions.end(), fiber.tension.begin(), fiber.tension.end());
   arrays.push_back(NamedArray::of("fiber/tension", std::move(tensions), "pN"));
+  arrays.push_back(stored_ends());
+  arrays.push_back(stored_loads());
   std::vector<std::int64_t> counts, kinds, bodies;
   PointArray positions, directions;
   for (Fiber const& fiber : fibers_) {
@@ -93,7 +113,11 @@ void Fibers::restore(std::span<NamedArray const> state) {
   auto const& bodies = values_of<std::int64_t>(state, "fiber/site/body", n);
   auto const& positions = values_of<double>(state, "fiber/site/position", 3 * n);
   auto const& directions = values_of<double>(state, "fiber/site/direction", 3 * n);
+  auto const& ends = values_of<double>(state, "fiber/ends", 9 * n);
+  auto const& loads = values_of<double>(state, "fiber/load", 4 * n);
   for (std::size_t i = 0; i < n; ++i) {
+    fibers_[i].ends = {point(ends, 3 * i), point(ends, 3 * i + 1), point(ends, 3 * i + 2)};
+    fibers_[i].load = {{loads[4 * i], loads[4 * i + 1], loads[4 * i + 2]}, loads[4 * i + 3]};
     fibers_[i].n_past = static_cast<int>(counts[i]);
     fibers_[i].site = {static_cast<MinusEnd>(kinds[i]), static_cast<int>(bodies[i]), point(positions, i),
                        point(directions, i)};

@@ -17,6 +17,7 @@ Scene read_all(Table root) {
   auto const periphery = root.find_table("periphery");
   auto const background = root.find_table("background");
   auto const instability = root.find_table("dynamic_instability");
+  auto const cytoplasmic_pulling = root.find_table("cytoplasmic_pulling");
   SceneTables const tables{root.tables("body"), root.tables("fiber"), root.tables("aster"), root.table("drag")};
   Table const fluid = root.table("fluid"), run = root.table("run"), output = root.table("output");
   root.finish();
@@ -28,6 +29,7 @@ Scene read_all(Table root) {
   if (periphery) scene.periphery = read_periphery(*periphery);
   if (background) scene.background = read_background(*background);
   if (instability) scene.dynamic_instability = read_dynamic_instability(*instability);
+  if (cytoplasmic_pulling) scene.cytoplasmic_pulling = read_cytoplasmic_pulling(*cytoplasmic_pulling);
   for (auto const& body : tables.bodies) scene.bodies.push_back(read_body(body, scene.bodies.size() + 1));
   for (auto const& fiber : tables.fibers) scene.fibers.push_back(read_fiber(fiber));
   for (auto const& aster : tables.asters) scene.asters.push_back(read_aster(aster));

@@ -2,7 +2,8 @@
 // A scene file (TOML) as plain data: what is there, how it is solved, what is written. A table that the file does
 // not have leaves an empty list or no value, and nothing is built from it. Lengths in um, times in s, forces in pN.
 //
-//   [fluid] [background] [periphery] [[body]] [[fiber]] [[aster]] [dynamic_instability] [run] [output] [drag]
+//   [fluid] [background] [periphery] [[body]] [[fiber]] [[aster]] [dynamic_instability] [cytoplasmic_pulling]
+//   [run] [output] [drag]
 
 #include "background/background_spec.hpp"
 #include "body/body_spec.hpp"
@@ -12,6 +13,7 @@
 #include "io/fluid_spec.hpp"
 #include "io/output_spec.hpp"
 #include "io/run_spec.hpp"
+#include "mechanism/cytoplasmic_pulling_spec.hpp"
 #include "periphery/periphery_spec.hpp"
 
 #include <optional>
@@ -31,6 +33,7 @@ struct Scene {
   std::vector<FiberSpec> fibers;
   std::vector<AsterSpec> asters;
   std::optional<DynamicInstabilitySpec> dynamic_instability;  // of fibers and asters with growing = true
+  std::optional<CytoplasmicPullingSpec> cytoplasmic_pulling;
 
   std::string file;                    // as the user wrote it
   std::string text;                    // all of it, kept with the trajectory

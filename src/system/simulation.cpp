@@ -49,6 +49,7 @@ Simulation::Simulation(Scene scene)
   auto const& run = scene_.run;
   for (auto const& body : scene_.bodies) bodies_.emplace_back(body);
   if (scene_.background) background_.emplace(*scene_.background);
+  if (scene_.cytoplasmic_pulling) cytoplasmic_pulling_.emplace(*scene_.cytoplasmic_pulling, scene_.fluid.viscosity);
   if (scene_.dynamic_instability) growth_.emplace(*scene_.dynamic_instability, run.seed);
   add_scene_fibers(scene_, fibers_, growth_);
   radiation_ = make_radiation(scene_, flows_, fibers_.count() > 0);
@@ -57,9 +58,10 @@ Simulation::Simulation(Scene scene)
 
 Simulation::~Simulation() = default;
 
-// Lengths and renucleation at the end of the step.
+// Loads of the fibers during the step, lengths and renucleation at the end of the step.
 void Simulation::plan_fibers(double dt) {
   fibers_.begin_step();
+  if (cytoplasmic_pulling_) cytoplasmic_pulling_->plan(fibers_);
   if (!growth_) return;
   std::vector<RigidPose> poses;
   std::vector<Vector6> motions;
@@ -70,6 +72,8 @@ void Simulation::plan_fibers(double dt) {
   growth_->advance(dt, surroundings_.at_tips(fibers_, *growth_, poses, motions));
   growth_->plan(fibers_);
 }
+
+TipState Simulation::tip_state(std::size_t fiber) const { return growth_ ? growth_->state_of(fiber) : TipState::still; }
 
 std::size_t Simulation::exchange_memory() const {
   return (radiation_.fine ? radiation_.fine->memory() : 0) + (radiation_.coarse ? radiation_.coarse->memory() : 0);

@@ -12,6 +12,7 @@
 #include "fiber/dynamic_instability.hpp"
 #include "fiber/fibers.hpp"
 #include "io/scene.hpp"
+#include "mechanism/cytoplasmic_pulling.hpp"
 #include "system/flows.hpp"
 #include "system/placement.hpp"
 #include "system/population.hpp"
@@ -52,6 +53,9 @@ class Simulation {
   // the state is then that of the last accepted step.
   StepReport step(double until);
 
+  // What the plus end of a fiber does; see fibers() for the forces at its ends and the load of its motors.
+  TipState tip_state(std::size_t fiber) const;
+
   // The state, for output.
   std::vector<NamedArray> frame() const;
   // All that a restart needs to go on exactly, and back.
@@ -65,6 +69,7 @@ class Simulation {
 
   std::vector<NamedArray> body_frame() const;
   std::vector<NamedArray> fiber_frame() const;
+  std::vector<NamedArray> fiber_end_frame() const;
   void plan_fibers(double dt);
   std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps) const;
   Trial attempt(double dt, StepReport& report);
@@ -80,6 +85,7 @@ class Simulation {
   std::vector<RigidBody> bodies_;
   Fibers fibers_;
   std::optional<DynamicInstability> growth_;
+  std::optional<CytoplasmicPulling> cytoplasmic_pulling_;
   GrowthSurroundings surroundings_;
   Placement placement_;
   std::optional<BackgroundFlow> background_;

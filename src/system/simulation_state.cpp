@@ -77,13 +77,32 @@ std::vector<NamedArray> Simulation::fiber_frame() const {
           NamedArray::of("fiber/force_density", forces, "pN/um")};
 }
 
+std::vector<NamedArray> Simulation::fiber_end_frame() const {
+  std::vector<std::int64_t> states;
+  std::vector<double> motors;
+  PointArray plus_end_forces, minus_end_forces, minus_end_torques;
+  for (std::size_t i = 0; i < fibers_.count(); ++i) {
+    auto const& ends = fibers_.ends(i);
+    states.push_back(static_cast<std::int64_t>(tip_state(i)));
+    plus_end_forces.push_back(ends.plus_end);
+    minus_end_forces.push_back(ends.minus_end);
+    minus_end_torques.push_back(ends.minus_end_torque);
+    motors.push_back(fibers_.load(i).motor);
+  }
+  return {NamedArray::of("fiber/tip_state", states),
+          NamedArray::of("fiber/plus_end_force", plus_end_forces, "pN"),
+          NamedArray::of("fiber/minus_end_force", minus_end_forces, "pN"),
+          NamedArray::of("fiber/minus_end_torque", minus_end_torques, "pN um"),
+          NamedArray::of("fiber/motor_load", motors, "pN/um")};
+}
+
 std::vector<NamedArray> Simulation::frame() const {
   std::vector<NamedArray> arrays;
   auto const append = [&](std::vector<NamedArray> more) {
     for (auto& array : more) arrays.push_back(std::move(array));
   };
   if (!bodies_.empty()) append(body_frame());
-  if (fibers_.count() > 0) append(fiber_frame());
+  if (fibers_.count() > 0) append(fiber_frame()), append(fiber_end_frame());
   if (radiation_.fine) {
     std::size_t const n_fiber_node = std::min(fibers_.node_count(), last_.incident.size());
     PointArray incident(last_.incident.begin() + static_cast<long>(n_fiber_node), last_.incident.end());
