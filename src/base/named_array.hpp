@@ -15,6 +15,7 @@ struct NamedArray {
   std::vector<std::size_t> shape;  // the last index runs fastest
   std::variant<std::vector<double>, std::vector<std::int64_t>> values;
   std::string unit;                // "um"; empty for plain numbers
+  bool single = false;             // numbers that single precision holds: stored so
 
   // [n, 3]
   static NamedArray of(std::string name, ConstPoints points, std::string unit) {

@@ -22,8 +22,8 @@ void Progress::show(StepReport const& step) {
   double const now = timer_.seconds();
   double const done = step.time - start_time_;
   double const remaining = done > 0.0 ? now * (end_time_ - step.time) / done : 0.0;
-  line_ = fmt::format("t {:.4g} of {:g} s   step {}   dt {:.3g} s   GMRES {} ({:.1e})   {:.3g} s/step   {} left", step.time,
-                      end_time_, n_step_, step.dt, step.iterations, step.residual, now / double(n_step_),
+  line_ = fmt::format("t {:.4g} of {:g} s   step {}   dt {:.3g} s   GMRES {}+{} ({:.1e})   {:.3g} s/step   {} left", step.time,
+                      end_time_, n_step_, step.dt, step.iterations, step.inner_iterations, step.residual, now / double(n_step_),
                       duration_words(remaining));
   if (is_terminal_ && now - last_shown_ > 0.1) {
     fmt::print(stderr, "\r\033[K{}", line_);

@@ -46,6 +46,7 @@ void FiberResponse::prepare(FiberStep const& step, Centreline const& predicted, 
   set_directions(predicted.tangents);
   factorise(predicted);
   set_body_resistance();
+  set_load_of_flow();
 }
 
 void FiberResponse::set_geometry(Centreline const& predicted, ConstPoints history, Points nodes, Vector weights) {
@@ -235,6 +236,32 @@ void FiberResponse::set_body_resistance() {
   }
 }
 
+// Row k: minus the work of R u, and of the spring at the plus end as the fiber yields to u, in the body's k-th unit motion g,
+//   D_k u = -g . w R u - g(L) . K dX(L),   R = (a0/dt) (1/w) B^T B - drag,   B = lower^-1 drag^T.
+void FiberResponse::set_load_of_flow() {
+  if (!step_.body) return;
+  int const n = step_.basis->n_node;
+  Map generators = scratch<2>(3 * n, 6);
+  Eigen::Matrix<double, 3, 6> at_tip;
+  load_of_flow_.resize(6, 3 * n);
+  for (int k = 0; k < 6; ++k) {
+    for (int i = 0; i < n; ++i) {
+      Vec3d const g = velocity_of_motion(Vector6::Unit(k), nodes_[i] - step_.body->predicted.position);
+      generators.col(k).segment<3>(3 * i) = to_eigen(g);
+      load_of_flow_.row(k).segment<3>(3 * i) = to_eigen(weights_[i] * drag(i, g)).transpose();
+    }
+    at_tip.col(k) = to_eigen(velocity_of_motion(Vector6::Unit(k), plus_end_ - step_.body->predicted.position));
+  }
+  Map yielding = scratch<3>(n_unknown_, 6);
+  yielding.noalias() = rate_ * (reduced_.leftCols(3 * n) * generators);
+  if (has_tip_spring()) {
+    Eigen::MatrixXd spring = tip_motion_.transpose() * (step_.tip.stiffness.transpose() * at_tip);
+    lower_.triangularView<Eigen::Lower>().solveInPlace(spring);
+    yielding += spring;
+  }
+  load_of_flow_.noalias() -= yielding.transpose() * reduced_.leftCols(3 * n);
+}
+
 bool FiberResponse::has_tip_spring() const { return !step_.tip.stiffness.isZero(0.0); }
 
 // What the spring at the plus end does to the body when the fiber responds.
@@ -292,6 +319,10 @@ void FiberResponse::add_linear(ConstPoints u, Vector6 const& q, Points f, Vector
     if (step_.body) add_body_load(nodes_[i], -weights_[i] * change[i], load);
   }
   if (step_.body && has_tip_spring()) add_spring_load(reduced, q, load);
+}
+
+void FiberResponse::add_load(ConstPoints u, Vector6& load) const {
+  if (step_.body) load.noalias() += load_of_flow_ * flat(u);
 }
 
 void FiberResponse::add_affine(Points f, Vector6& load) const {

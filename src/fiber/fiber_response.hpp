@@ -44,6 +44,8 @@ class FiberResponse {
 
   // f += R u + C q, load += D u - S q. Without a body q and load are not touched.
   void add_linear(ConstPoints u, Vector6 const& q, Points f, Vector6& load) const;
+  // load += D u
+  void add_load(ConstPoints u, Vector6& load) const;
   // f += f_0 without what the motors' cargo gives back, load += l_0.
   void add_affine(Points f, Vector6& load) const;
   // S: resistance that the fiber adds to its body when the incident flow is held fixed.
@@ -74,6 +76,7 @@ class FiberResponse {
   void factorise(Centreline const& predicted);
   void set_body_columns();
   void set_body_resistance();
+  void set_load_of_flow();
   bool has_tip_spring() const;
   void add_spring_load(Unknowns response, Vector6 const& q, Vector6& load) const;
 
@@ -97,6 +100,7 @@ class FiberResponse {
   // lower^-1 (drag of the motions [n_unknown, 3 n_node] | forcing [n_unknown] | body columns [n_unknown, 6])
   Eigen::MatrixXd reduced_;
   Matrix6 body_resistance_ = Matrix6::Zero();
+  Eigen::Matrix<double, 6, Eigen::Dynamic> load_of_flow_;  // D [6, 3 n_node]
 };
 
 }  // namespace asterflow

@@ -154,6 +154,18 @@ void Fibers::add_linear_response(ConstPoints u, std::span<Vector6 const> q, Poin
     fiber_loads_[i].setZero();
     fiber.response.add_linear(u.subspan(first, n), motion, f.subspan(first, n), fiber_loads_[i]);
   });
+  add_to_bodies(loads);
+}
+
+void Fibers::add_loads(ConstPoints u, std::span<Vector6> loads) const {
+  parallel_for("Fibers::add_loads", static_cast<long>(count()), [&](long i) {
+    fiber_loads_[i].setZero();
+    fibers_[i].response.add_load(u.subspan(first_node_[i], fibers_[i].properties.n_node), fiber_loads_[i]);
+  });
+  add_to_bodies(loads);
+}
+
+void Fibers::add_to_bodies(std::span<Vector6> loads) const {
   for (std::size_t i = 0; i < count(); ++i)
     if (fibers_[i].plan.site.is_attached()) loads[fibers_[i].plan.site.body] += fiber_loads_[i];
 }
@@ -165,8 +177,7 @@ void Fibers::add_affine_response(Points f, std::span<Vector6> loads) const {
     fiber_loads_[i].setZero();
     fiber.response.add_affine(f.subspan(first_node_[i], fiber.properties.n_node), fiber_loads_[i]);
   });
-  for (std::size_t i = 0; i < count(); ++i)
-    if (fibers_[i].plan.site.is_attached()) loads[fibers_[i].plan.site.body] += fiber_loads_[i];
+  add_to_bodies(loads);
 }
 
 void Fibers::add_body_resistance(std::span<Matrix6> resistances) const {

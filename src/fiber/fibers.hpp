@@ -61,6 +61,8 @@ class Fibers {
   // f [n_node] += R u + C q, loads [n_body] += D u - S q: force density on the fluid (pN/um), force (pN) and torque
   // about the centre (pN um) on the bodies, for the incident flow u [n_node] (um/s) and the bodies' motions q [n_body].
   void add_linear_response(ConstPoints u, std::span<Vector6 const> q, Points f, std::span<Vector6> loads) const;
+  // loads [n_body] += D u
+  void add_loads(ConstPoints u, std::span<Vector6> loads) const;
   // f += f_0, loads += l_0: what remains at u = 0, q = 0.
   void add_affine_response(Points f, std::span<Vector6> loads) const;
   // resistances [n_body] += S, what attached fibers add to the resistance of their body at fixed incident flow.
@@ -107,6 +109,7 @@ class Fibers {
   NamedArray stored_ends() const;
   NamedArray stored_loads() const;
   void lay_out();
+  void add_to_bodies(std::span<Vector6> loads) const;  // fiber_loads_
   void predict(Fiber& fiber, std::span<BodyMotionMap const> bodies) const;
   void set_history(Fiber& fiber, TimeScheme const& scheme) const;
   TimeScheme scheme_of(Fiber const& fiber) const;

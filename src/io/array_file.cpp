@@ -203,7 +203,8 @@ void ArrayFile::write(NamedArray const& array) {
   Handle const groups = intermediate_groups();
   bool const is_whole = std::holds_alternative<std::vector<std::int64_t>>(array.values);
   hid_t const type = is_whole ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE;
-  Handle const dataset(H5Dcreate2(file_, array.name.c_str(), type, space, groups, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  hid_t const stored = array.single ? H5T_NATIVE_FLOAT : type;
+  Handle const dataset(H5Dcreate2(file_, array.name.c_str(), stored, space, groups, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
   std::size_t n = 1;
   for (std::size_t count : array.shape) n *= count;
   bool is_written = dataset >= 0 && write_unit(dataset, array.unit);

@@ -68,11 +68,15 @@ GmresResult solve_gmres(LinearOperator const& a, LinearOperator const& precondit
   std::vector<VectorXd> v, z;
   VectorXd w(n);
   while (true) {
-    a(x, {w.data(), b.size()});
-    VectorXd r = as_eigen(b) - w;
+    VectorXd r = as_eigen(b);
+    if (!solution.isZero(0.0)) {
+      a(x, {w.data(), b.size()});
+      r -= w;
+    }
     double const beta = r.norm();
     result.residual = beta / reference;
     result.converged = result.residual <= options.tolerance;
+    if (options.monitor) options.monitor(result.residual);
     if (result.converged || result.iterations >= options.max_iterations || !std::isfinite(beta)) return result;
 
     HessenbergSystem hessenberg(m, beta);
@@ -95,10 +99,14 @@ GmresResult solve_gmres(LinearOperator const& a, LinearOperator const& precondit
       column[j + 1] = w.norm();
       bool const exhausted = column[j + 1] <= 1e-15 * column.head(j + 1).norm();
       if (!exhausted) v.emplace_back(w / column[j + 1]);
-      done = hessenberg.append(j, column) <= options.tolerance * reference || exhausted;
+      result.residual = hessenberg.append(j, column) / reference;
+      result.converged = result.residual <= options.tolerance;
+      if (options.monitor) options.monitor(result.residual);
+      done = result.converged || exhausted;
     }
     VectorXd const y = hessenberg.solve(j);
     for (int i = 0; i < j; ++i) solution += y[i] * z[i];
+    if (result.converged) return result;
   }
 }
 

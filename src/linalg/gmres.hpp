@@ -16,6 +16,8 @@ struct GmresOptions {
   double reference = 0.0;   // what the residual is compared with; 0: |b|
   int max_iterations = 200;
   int restart = 60;  // Krylov vectors kept
+  // Told the relative residual before the first iteration and after each.
+  std::function<void(double residual)> monitor = {};
 };
 
 struct GmresResult {

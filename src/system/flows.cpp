@@ -1,34 +1,25 @@
 #include "system/flows.hpp"
 
-#include "system/scattering.hpp"
-
-#include <algorithm>
 
 namespace asterflow {
 namespace {
 
-constexpr int lowest_order = 6;
-
 // Builds each flow once.
 class FlowLibrary {
  public:
-  FlowLibrary(double accuracy, Resolution resolution) : accuracy_(accuracy), resolution_(resolution) {}
+  explicit FlowLibrary(double accuracy) : accuracy_(accuracy) {}
 
   Radiation::Flow get(ShapeSpec const& spec, int order_in_scene, Side side) {
-    int order = surface_order(spec, order_in_scene, accuracy_);
-    // Fibers start on bodies, so bodies keep their order in the preconditioner; the periphery is farther away.
-    if (resolution_ == Resolution::coarse && side == Side::interior) order = std::min(order, std::max(lowest_order, order / 2));
+    int const order = surface_order(spec, order_in_scene, accuracy_);
     for (auto const& made : flows_)
       if (made.shape == spec && made.flow->surface().order() == order && made.flow->side() == side) return made.flow;
-    double const accuracy = resolution_ == Resolution::fine ? accuracy_ : 1e-3;
-    auto flow = std::make_shared<DirichletFlow const>(Surface(make_shape(spec), order), side, accuracy);
+    auto flow = std::make_shared<DirichletFlow const>(Surface(make_shape(spec), order), side, accuracy_);
     flows_.push_back({spec, flow});
     return flow;
   }
 
  private:
   double accuracy_;
-  Resolution resolution_;
   struct Made {
     ShapeSpec shape;
     Radiation::Flow flow;
@@ -42,8 +33,8 @@ int surface_order(ShapeSpec const& shape, int order_in_scene, double accuracy) {
   return order_in_scene > 0 ? order_in_scene : default_order(*make_shape(shape), accuracy);
 }
 
-SceneFlows make_flows(Scene const& scene, Resolution resolution) {
-  FlowLibrary library(scene.run.accuracy, resolution);
+SceneFlows make_flows(Scene const& scene) {
+  FlowLibrary library(scene.run.accuracy);
   SceneFlows flows;
   for (auto const& body : scene.bodies) flows.bodies.push_back(library.get(body.shape, body.order, Side::exterior));
   if (scene.run.interactions == Interactions::confined && scene.periphery)
@@ -51,18 +42,11 @@ SceneFlows make_flows(Scene const& scene, Resolution resolution) {
   return flows;
 }
 
-SceneRadiation make_radiation(Scene const& scene, SceneFlows const& flows, bool has_fibers) {
-  SceneRadiation radiation;
+std::unique_ptr<Radiation> make_radiation(Scene const& scene, SceneFlows const& flows) {
   auto const& run = scene.run;
-  if (run.interactions == Interactions::local) return radiation;
-  auto const make = [&](SceneFlows const& level, double accuracy) {
-    return std::make_unique<Radiation>(level.bodies, level.periphery,
-                                       RadiationOptions{scene.fluid.viscosity, run.evaluator, accuracy});
-  };
-  radiation.fine = make(flows, run.evaluator_accuracy);
-  if (has_fibers && run.gmres_tolerance < loose_tolerance)
-    radiation.coarse = make(make_flows(scene, Resolution::coarse), 1e-3);
-  return radiation;
+  if (run.interactions == Interactions::local) return nullptr;
+  return std::make_unique<Radiation>(flows.bodies, flows.periphery,
+                                     RadiationOptions{scene.fluid.viscosity, run.evaluator, run.evaluator_accuracy});
 }
 
 Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double viscosity) {

@@ -11,17 +11,10 @@ struct SceneFlows {
   Radiation::Flow periphery;  // null unless the scene is confined
 };
 
-enum class Resolution { fine, coarse };  // coarse: for the preconditioner
+SceneFlows make_flows(Scene const& scene);
 
-SceneFlows make_flows(Scene const& scene, Resolution resolution);
-
-// How the objects of a scene exchange their flows; nothing in a `local` scene.
-struct SceneRadiation {
-  std::unique_ptr<Radiation> fine;
-  std::unique_ptr<Radiation> coarse;  // for the preconditioner; only with fibers and a tight tolerance
-};
-
-SceneRadiation make_radiation(Scene const& scene, SceneFlows const& flows, bool has_fibers);
+// How the objects of a scene exchange their flows; null in a `local` scene.
+std::unique_ptr<Radiation> make_radiation(Scene const& scene, SceneFlows const& flows);
 
 // Spectral order of a surface: the scene's, else from the accuracy of the run.
 int surface_order(ShapeSpec const& shape, int order_in_scene, double accuracy);

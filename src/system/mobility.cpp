@@ -58,8 +58,8 @@ SceneMobility scene_mobility(Scene const& scene) {
   std::optional<DynamicInstability> no_growth;
   add_scene_fibers(scene, fibers, no_growth);
   if (n > 0 && fibers.count() == 0 && scene.run.interactions != Interactions::local) return mobility_of_bodies(scene);
-  SceneFlows const flows = make_flows(scene, Resolution::fine);
-  SceneRadiation const exchange = make_radiation(scene, flows, fibers.count() > 0);
+  SceneFlows const flows = make_flows(scene);
+  auto const exchange = make_radiation(scene, flows);
   std::vector<BodyDrive> bodies;
   std::vector<RigidPose> poses;
   for (std::size_t b = 0; b < n; ++b) {
@@ -68,7 +68,8 @@ SceneMobility scene_mobility(Scene const& scene) {
     bodies.push_back({poses[b], body_resistance(*flows.bodies[b], poses[b], scene.fluid.viscosity), false});
   }
   RigidFibers const rigid(fibers, scene.fluid.viscosity, poses);
-  Scattering scattering(rigid, bodies, exchange.fine.get(), exchange.coarse.get(),
+  Recycling memory(recycled_directions);
+  Scattering scattering(rigid, bodies, exchange.get(), &memory,
                         {.tolerance = scene.run.gmres_tolerance, .max_iterations = scene.run.gmres_max_iterations});
   result.resistance.resize(6 * n, 6 * n);
   for (Eigen::Index column = 0; column < result.resistance.cols(); ++column) {
@@ -78,7 +79,7 @@ SceneMobility scene_mobility(Scene const& scene) {
     if (!solution.gmres.converged)
       throw NumericalError(fmt::format("mobility: GMRES stopped after {} iterations at residual {:.3g}",
                                        solution.gmres.iterations, solution.gmres.residual));
-    result.resistance.col(column) = loads_of(rigid, exchange.fine.get(), bodies, solution);
+    result.resistance.col(column) = loads_of(rigid, exchange.get(), bodies, solution);
   }
   result.mobility = result.resistance.inverse();
   return result;

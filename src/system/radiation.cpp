@@ -12,6 +12,8 @@ namespace asterflow {
 
 namespace {
 
+constexpr double rough_accuracy = 1e-3;
+
 PointArray to_body_frame(RigidPose const& pose, ConstPoints points) {
   PointArray local(points.size());
   Matrix3 const back = pose.rotation.transpose();
@@ -62,6 +64,11 @@ void Radiation::set_geometry(FiberNodes const& fibers, std::vector<RigidPose> co
     if (!stokeslets_)
       stokeslets_ = make_evaluator(Stokeslet::name, {.backend = options_.evaluator, .accuracy = options_.accuracy});
     stokeslets_->set_points(fibers.positions, all);
+    if (options_.accuracy < 0.1 * rough_accuracy) {
+      if (!rough_stokeslets_)
+        rough_stokeslets_ = make_evaluator(Stokeslet::name, {.backend = options_.evaluator, .accuracy = rough_accuracy});
+      rough_stokeslets_->set_points(fibers.positions, all);
+    }
     strengths_.resize(n_fiber_nodes_);
   }
   seconds_.geometry += timer.seconds();
@@ -92,10 +99,11 @@ PointArray Radiation::periphery_wall_velocity(ConstPoints incident) const {
 }
 
 // Sum over all nodes of all fibers, less each fiber's sum over its own nodes: a fiber's own flow is its local drag.
-void Radiation::add_fibers(ConstPoints force_density, Points received) {
+void Radiation::add_fibers(ConstPoints force_density, Sums sums, Points received) {
   double const scale = 1.0 / options_.viscosity;
   for (std::size_t i = 0; i < n_fiber_nodes_; ++i) strengths_[i] = (scale * weights_[i]) * force_density[i];
-  stokeslets_->add_velocity(strengths_, received);
+  bool const is_rough = sums == Sums::rough && rough_stokeslets_;
+  (is_rough ? rough_stokeslets_ : stokeslets_)->add_velocity(strengths_, received);
   parallel_for("Radiation::own_flow", static_cast<long>(first_fiber_node_.size()) - 1, [&](long fiber) {
     std::size_t const begin = first_fiber_node_[fiber], end = first_fiber_node_[fiber + 1];
     for (std::size_t i = begin; i < end; ++i)
@@ -121,12 +129,12 @@ void Radiation::add_periphery(ConstPoints incident, Points received) {
 }
 
 void Radiation::exchange(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,
-                         Points received) {
+                         Points received, Sums sums) {
   ASTERFLOW_REQUIRE(incident.size() == nodes_.size() && received.size() == nodes_.size());
   std::fill(received.begin(), received.end(), Vec3d{});
   Timer timer;
-  if (n_fiber_nodes_ > 0) add_fibers(force_density, received);
-  seconds_.sums += timer.seconds();
+  if (n_fiber_nodes_ > 0) add_fibers(force_density, sums, received);
+  (sums == Sums::rough ? seconds_.rough_sums : seconds_.sums) += timer.seconds();
   timer.restart();
   add_bodies(motions, incident, received);
   add_periphery(incident, received);
@@ -157,7 +165,8 @@ std::size_t Radiation::memory() const {
   std::size_t bytes = sizeof(Vec3d) * (nodes_.size() + strengths_.size()) + sizeof(double) * weights_.size();
   for (auto const& flow : bodies_) bytes += flow->memory();
   if (periphery_) bytes += periphery_->memory();
-  return bytes + (stokeslets_ ? stokeslets_->memory() : 0);
+  return bytes + (stokeslets_ ? stokeslets_->memory() : 0) +
+         (rough_stokeslets_ ? rough_stokeslets_->memory() : 0);
 }
 
 }  // namespace asterflow

@@ -79,6 +79,13 @@ void RigidFibers::add_linear_response(ConstPoints u, std::span<Vector6 const> mo
   }
 }
 
+void RigidFibers::add_loads(ConstPoints u, std::span<Vector6> loads) const {
+  for (std::size_t i = 0; i < fibers_.size(); ++i)
+    if (auto const& fiber = fibers_[i]; fiber.hold == Hold::body)
+      for (std::size_t j = first_[i]; j < first_[i + 1]; ++j)
+        loads[fiber.body] += load(fiber, j, drag(fiber, j, u[j]));
+}
+
 void RigidFibers::add_body_resistance(std::span<Matrix6> resistances) const {
   for (auto const& fiber : fibers_)
     if (fiber.hold == Hold::body) resistances[fiber.body] += fiber.resistance;

@@ -16,6 +16,7 @@ class RigidFibers final : public FiberAnswers {
   FiberNodes nodes() const override { return {nodes_, weights_, &first_}; }
   void add_linear_response(ConstPoints u, std::span<Vector6 const> motions, Points f,
                            std::span<Vector6> loads) const override;
+  void add_loads(ConstPoints u, std::span<Vector6> loads) const override;
   void add_affine_response(Points, std::span<Vector6>) const override {}
   void add_body_resistance(std::span<Matrix6> resistances) const override;
 

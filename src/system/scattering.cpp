@@ -1,14 +1,14 @@
 #include "system/scattering.hpp"
 
 #include "base/error.hpp"
-#include "system/coarse_scattering.hpp"
 
 #include <algorithm>
 
 namespace asterflow {
+
 Scattering::Scattering(FiberAnswers const& fibers, std::vector<BodyDrive> bodies, Radiation* radiation,
-                       Radiation* coarse, ScatteringOptions options)
-    : fibers_(fibers), bodies_(std::move(bodies)), radiation_(radiation), options_(options) {
+                       Recycling* memory, ScatteringOptions options)
+    : fibers_(fibers), bodies_(std::move(bodies)), radiation_(radiation), memory_(memory), options_(options) {
   std::vector<Matrix6> resistances;
   std::vector<RigidPose> poses;
   for (auto const& body : bodies_) {
@@ -17,13 +17,8 @@ Scattering::Scattering(FiberAnswers const& fibers, std::vector<BodyDrive> bodies
   }
   fibers_.add_body_resistance(resistances);
   for (auto const& resistance : resistances) held_resistance_.emplace_back(resistance);
-  if (!radiation_) return;
-  radiation_->set_geometry(fibers_.nodes(), poses);
-  if (coarse && options_.coarsening > 0 && radiation_->n_fiber_nodes() > 0)
-    coarse_ = std::make_unique<CoarseScattering>(*this, fibers_.nodes(), bodies_, *radiation_, *coarse, options_);
+  if (radiation_) radiation_->set_geometry(fibers_.nodes(), poses);
 }
-
-Scattering::~Scattering() = default;
 
 ConstPoints Scattering::nodes() const { return radiation_ ? radiation_->nodes() : fibers_.nodes().positions; }
 
@@ -32,7 +27,7 @@ void Scattering::answer(ConstPoints u, std::vector<Vector6> loads, bool affine, 
   motions.assign(bodies_.size(), Vector6::Zero());
   std::fill(force_density.begin(), force_density.end(), Vec3d{});
   if (affine) fibers_.add_affine_response(force_density, loads);
-  fibers_.add_linear_response(u, motions, force_density, loads);
+  if (!bodies_.empty()) fibers_.add_loads(u, loads);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     auto const& body = bodies_[b];
     if (body.is_free)
@@ -40,19 +35,79 @@ void Scattering::answer(ConstPoints u, std::vector<Vector6> loads, bool affine, 
     else if (affine)
       motions[b] = body.value;
   }
-  if (!bodies_.empty()) {
-    PointArray const still(u.size());
-    fibers_.add_linear_response(still, motions, force_density, loads);
-  }
+  fibers_.add_linear_response(u, motions, force_density, loads);
 }
 
-void Scattering::apply(ConstVector z, Vector result, bool affine) const {
+void Scattering::apply(ConstVector z, Vector result, bool affine, Sums sums) const {
   ConstPoints const incident = as_points(z);
   std::vector<Vector6> loads, motions;
   for (std::size_t b = 0; b < bodies_.size(); ++b) loads.push_back(radiation_->load_of_incident(b, incident));
   PointArray force_density(radiation_->n_fiber_nodes());
   answer(incident.first(force_density.size()), loads, affine, force_density, motions);
-  radiation_->exchange(force_density, motions, incident, as_points(result));
+  radiation_->exchange(force_density, motions, incident, as_points(result), sums);
+}
+
+void Scattering::apply_equation(ConstVector z, Vector result, Sums sums) const {
+  apply(z, result, false, sums);
+  for (std::size_t i = 0; i < z.size(); ++i) result[i] = z[i] - result[i];
+}
+
+namespace {
+
+// Keeps what an operator was applied to and what came out.
+class Recorder {
+ public:
+  explicit Recorder(LinearOperator a) : a_(std::move(a)) {}
+  void operator()(ConstVector input, Vector output) {
+    a_(input, output);
+    inputs_.insert(inputs_.end(), input.begin(), input.end());
+    outputs_.insert(outputs_.end(), output.begin(), output.end());
+    ++count_;
+  }
+  void teach(Recycling& memory) const {
+    if (count_ == 0) return;
+    Eigen::Index const n = static_cast<Eigen::Index>(inputs_.size()) / count_;
+    memory.learn(Eigen::Map<Eigen::MatrixXf const>(inputs_.data(), n, count_),
+                 Eigen::Map<Eigen::MatrixXf const>(outputs_.data(), n, count_));
+  }
+
+ private:
+  LinearOperator a_;
+  std::vector<float> inputs_, outputs_;
+  Eigen::Index count_ = 0;
+};
+
+}  // namespace
+
+// Solves (I - L) correction = residual to tolerance x reference.
+GmresResult Scattering::correct(ConstVector residual, double reference, Vector correction, int& inner_iterations) {
+  GmresOptions options{.tolerance = options_.tolerance, .reference = reference, .max_iterations = options_.max_iterations};
+  LinearOperator const recall = [this](ConstVector r, Vector result) {
+    std::copy(r.begin(), r.end(), result.begin());
+    if (memory_) memory_->precondition(result);
+  };
+  bool const is_nested = radiation_->has_rough_sums();
+  Recorder equation([&](ConstVector z, Vector result) {
+    apply_equation(z, result, is_nested ? Sums::rough : Sums::accurate);
+  });
+  GmresResult result;
+  if (is_nested) {
+    auto const accurate = [&](ConstVector z, Vector result) { apply_equation(z, result, Sums::accurate); };
+    double to_go = 1.0;  // what remains to be gained
+    options.monitor = [&](double outer_residual) { to_go = options_.tolerance / outer_residual; };
+    auto const rough_solve = [&](ConstVector r, Vector result) {
+      std::fill(result.begin(), result.end(), 0.0);
+      double const tolerance = std::max(options_.inner_tolerance, 0.3 * to_go);
+      inner_iterations += solve_gmres(std::ref(equation), recall, r, result,
+                                      {.tolerance = tolerance, .max_iterations = options_.max_iterations})
+                              .iterations;
+    };
+    result = solve_gmres(accurate, rough_solve, residual, correction, options);
+  } else {
+    result = solve_gmres(std::ref(equation), recall, residual, correction, options);
+  }
+  if (memory_) equation.teach(*memory_);
+  return result;
 }
 
 ScatteringSolution Scattering::solve(ConstPoints background, ConstPoints guess) {
@@ -60,22 +115,18 @@ ScatteringSolution Scattering::solve(ConstPoints background, ConstPoints guess) 
   std::size_t const n = nodes().size();
   solution.incident.assign(n, Vec3d{});
   if (radiation_) {
-    PointArray b(n);
-    apply(as_vector(solution.incident), as_vector(b), true);
-    for (std::size_t i = 0; i < background.size(); ++i) b[i] += background[i];
-    if (!guess.empty()) std::copy(guess.begin(), guess.end(), solution.incident.begin());
-    auto const a = [&](ConstVector z, Vector result) {
-      apply(z, result, false);
-      for (std::size_t i = 0; i < z.size(); ++i) result[i] = z[i] - result[i];
+    PointArray scale(n), residual(n), correction(n);
+    auto const apply_to_guess = [&](PointArray& result, Sums sums) {
+      apply(as_vector(solution.incident), as_vector(result), true, sums);
+      for (std::size_t i = 0; i < background.size(); ++i) result[i] += background[i];
     };
-    LinearOperator preconditioner;
-    if (coarse_) preconditioner = [&](ConstVector r, Vector result) { coarse_->precondition(r, result); };
-    solution.gmres = solve_gmres(a, preconditioner, as_vector(b), as_vector(solution.incident),
-                                 {.tolerance = options_.tolerance, .max_iterations = options_.max_iterations});
-    if (coarse_) {
-      solution.inner_iterations = coarse_->iterations();
-      solution.coarse_seconds = coarse_->seconds();
-    }
+    apply_to_guess(scale, Sums::rough);  // b
+    if (!guess.empty()) std::copy(guess.begin(), guess.end(), solution.incident.begin());
+    apply_to_guess(residual, Sums::accurate);
+    for (std::size_t i = 0; i < n; ++i) residual[i] -= solution.incident[i];
+    solution.gmres = correct(as_vector(residual), flat(ConstPoints(scale)).norm(), as_vector(correction),
+                             solution.inner_iterations);
+    for (std::size_t i = 0; i < n; ++i) solution.incident[i] += correction[i];
   } else {
     std::copy(background.begin(), background.end(), solution.incident.begin());
     solution.gmres.converged = true;

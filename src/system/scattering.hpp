@@ -5,20 +5,20 @@
 //   (K + sum S) q = F_ext + faxen(z) + sum (l_0 + D z)      each free body with the fibers that it holds
 // and their flows make up the incident flow of the others:
 //   z = exchange(f(z), q(z), z) + background  =:  L z + b.
-// GMRES solves (I - L) z = b. Its preconditioner solves the same problem on coarse nodes (P prolongs, P+ restricts),
-// with sums of low accuracy, to a loose tolerance:  M r = r + P ((I - L_c)^-1 - I) P+ r.
+// GMRES solves (I - L) z = b. Where the sums are to be accurate, its preconditioner is GMRES on the same equation with rough
+// sums, which cost a fraction: each outer iteration gains the digits that rough sums have. The rough equation is
+// preconditioned by what earlier solves have learnt (linalg/recycling.hpp): an aster as a whole yields to a flow far more
+// easily than its fibers do one by one, and these few collective motions change little from step to step.
 // Without interactions (`local`) nothing is exchanged and z is the background.
 
 #include "linalg/gmres.hpp"
+#include "linalg/recycling.hpp"
 #include "system/radiation.hpp"
 
 #include <Eigen/LU>
-#include <memory>
 #include <span>
 
 namespace asterflow {
-
-class CoarseScattering;
 
 // How all fibers answer, at their hydrodynamic nodes. Loads [n_body] are force (pN) and torque about the centre (pN um).
 class FiberAnswers {
@@ -28,6 +28,8 @@ class FiberAnswers {
   // f += R u + C q, loads += D u - S q
   virtual void add_linear_response(ConstPoints u, std::span<Vector6 const> motions, Points f,
                                    std::span<Vector6> loads) const = 0;
+  // loads += D u
+  virtual void add_loads(ConstPoints u, std::span<Vector6> loads) const = 0;
   // f += f_0, loads += l_0
   virtual void add_affine_response(Points f, std::span<Vector6> loads) const = 0;
   // resistances += sum of S over the fibers that a body holds
@@ -45,30 +47,26 @@ struct BodyDrive {
 struct ScatteringOptions {
   double tolerance = 1e-6;  // relative residual of z
   int max_iterations = 200;
-  int coarsening = 2;             // a fiber's nodes over its nodes in the preconditioner; 0: no preconditioner
-  double inner_tolerance = 0.2;   // of the coarse solve
-  int inner_max_iterations = 40;
+  double inner_tolerance = 3e-3;  // of the equation with rough sums
 };
 
 struct ScatteringSolution {
   PointArray incident;           // z, um/s
   PointArray force_density;      // pN/um, on the fluid, at the fibers' nodes
   std::vector<Vector6> motions;  // q
-  GmresResult gmres;
-  int inner_iterations = 0;     // of all coarse solves together
-  double coarse_seconds = 0.0;  // wall time of the preconditioner
+  GmresResult gmres;             // with accurate sums
+  int inner_iterations = 0;      // with rough sums
 };
 
-// Above this tolerance the coarse solves cost more than the iterations that they save (bench_step).
-inline constexpr double loose_tolerance = 1e-5;
+// What a sequence of similar problems remembers: more directions save few iterations (bench_step).
+inline constexpr int recycled_directions = 40;
 
 class Scattering {
  public:
-  // The problem at the geometry that fibers and bodies have now. `radiation` and `coarse` (may be null) must have been
-  // made for these bodies; null `radiation`: no interactions.
-  Scattering(FiberAnswers const& fibers, std::vector<BodyDrive> bodies, Radiation* radiation, Radiation* coarse,
+  // The problem at the geometry that fibers and bodies have now. `radiation` must have been made for these bodies; null:
+  // no interactions. `memory` of earlier solves is used and added to; it may be null.
+  Scattering(FiberAnswers const& fibers, std::vector<BodyDrive> bodies, Radiation* radiation, Recycling* memory,
              ScatteringOptions options);
-  ~Scattering();
 
   ConstPoints nodes() const;  // where z lives; without interactions the fibers' nodes
 
@@ -84,13 +82,17 @@ class Scattering {
               std::vector<Vector6>& motions) const;
 
  private:
-  void apply(ConstVector z, Vector result, bool affine) const;
+  // result = L z, + b if affine
+  void apply(ConstVector z, Vector result, bool affine, Sums sums) const;
+  // result = (I - L) z
+  void apply_equation(ConstVector z, Vector result, Sums sums) const;
+  GmresResult correct(ConstVector residual, double reference, Vector correction, int& inner_iterations);
 
   FiberAnswers const& fibers_;
   std::vector<BodyDrive> bodies_;
   std::vector<Eigen::PartialPivLU<Matrix6>> held_resistance_;  // K + sum S
   Radiation* radiation_;
-  std::unique_ptr<CoarseScattering> coarse_;
+  Recycling* memory_;
   ScatteringOptions options_;
 };
 

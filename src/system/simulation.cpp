@@ -22,6 +22,7 @@ class SteppedFibers final : public FiberAnswers {
                            std::span<Vector6> loads) const override {
     fibers_.add_linear_response(u, motions, f, loads);
   }
+  void add_loads(ConstPoints u, std::span<Vector6> loads) const override { fibers_.add_loads(u, loads); }
   void add_affine_response(Points f, std::span<Vector6> loads) const override {
     fibers_.add_affine_response(f, loads);
   }
@@ -45,14 +46,14 @@ struct Simulation::Trial {
 
 Simulation::Simulation(Scene scene)
     : scene_(std::move(scene)), fibers_(scene_.fluid.viscosity), surroundings_(scene_),
-      placement_(scene_), flows_(make_flows(scene_, Resolution::fine)) {
+      placement_(scene_), flows_(make_flows(scene_)) {
   auto const& run = scene_.run;
   for (auto const& body : scene_.bodies) bodies_.emplace_back(body);
   if (scene_.background) background_.emplace(*scene_.background);
   if (scene_.cytoplasmic_pulling) cytoplasmic_pulling_.emplace(*scene_.cytoplasmic_pulling, scene_.fluid.viscosity);
   if (scene_.dynamic_instability) growth_.emplace(*scene_.dynamic_instability, run.seed);
   add_scene_fibers(scene_, fibers_, growth_);
-  radiation_ = make_radiation(scene_, flows_, fibers_.count() > 0);
+  radiation_ = make_radiation(scene_, flows_);
   dt_ = run.time_step;
 }
 
@@ -76,7 +77,7 @@ void Simulation::plan_fibers(double dt) {
 TipState Simulation::tip_state(std::size_t fiber) const { return growth_ ? growth_->state_of(fiber) : TipState::still; }
 
 std::size_t Simulation::exchange_memory() const {
-  return (radiation_.fine ? radiation_.fine->memory() : 0) + (radiation_.coarse ? radiation_.coarse->memory() : 0);
+  return radiation_ ? radiation_->memory() + memory_.memory() : 0;
 }
 
 Matrix6 Simulation::resistance_alone(std::size_t body, RigidPose const& pose) const {
@@ -89,7 +90,7 @@ std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps
     auto const& body = bodies_[b];
     BodyDrive drive{maps[b].predicted, resistance_alone(b, maps[b].predicted),
                     body.is_free(), body.is_free() ? body.external_load() : body.prescribed_motion()};
-    if (!radiation_.fine && background_ && body.is_free()) {  // otherwise the background is part of the incident flow
+    if (!radiation_ && background_ && body.is_free()) {  // otherwise the background is part of the incident flow
       Vector6 carried;
       carried << to_eigen(background_->velocity(drive.pose.position)), to_eigen(background_->rotation());
       drive.value += drive.resistance * carried;
@@ -140,10 +141,10 @@ std::string Simulation::misplaced_trial() const {
 }
 
 ScatteringSolution Simulation::solve(double dt, std::vector<BodyMotionMap> const& maps, StepReport& report) {
-  Radiation::Seconds const before = radiation_.fine ? radiation_.fine->seconds() : Radiation::Seconds{};
+  Radiation::Seconds const before = radiation_ ? radiation_->seconds() : Radiation::Seconds{};
   Timer const timer;
   SteppedFibers const answers(fibers_);
-  Scattering scattering(answers, drives(maps), radiation_.fine.get(), radiation_.coarse.get(),
+  Scattering scattering(answers, drives(maps), radiation_.get(), &memory_,
                         {.tolerance = scene_.run.gmres_tolerance, .max_iterations = scene_.run.gmres_max_iterations});
   auto const nodes = scattering.nodes();
   report.prepare_seconds += timer.seconds();
@@ -154,10 +155,10 @@ ScatteringSolution Simulation::solve(double dt, std::vector<BodyMotionMap> const
   }
   PointArray const start = guess(dt);
   auto solution = scattering.solve(imposed, start.size() == nodes.size() ? start : PointArray{});
-  if (radiation_.fine) {
-    report.sum_seconds += radiation_.fine->seconds().sums - before.sums;
-    report.surface_seconds += radiation_.fine->seconds().surfaces - before.surfaces;
-    report.coarse_seconds += solution.coarse_seconds;
+  if (radiation_) {
+    report.sum_seconds += radiation_->seconds().sums - before.sums;
+    report.surface_seconds += radiation_->seconds().surfaces - before.surfaces;
+    report.rough_sum_seconds += radiation_->seconds().rough_sums - before.rough_sums;
   }
   return solution;
 }

@@ -27,12 +27,12 @@ struct StepReport {
   double time = 0.0;         // s, at its end
   double dt = 0.0;           // s
   double error = 0.0;        // um, estimated local error of a position
-  int iterations = 0;        // GMRES on the fine nodes
-  int inner_iterations = 0;  // in the preconditioner, all together
+  int iterations = 0;        // GMRES with accurate sums
+  int inner_iterations = 0;  // with rough sums, in its preconditioner
   double residual = 0.0;     // relative
   int rejected = 0;          // trials before it
   double seconds = 0.0;      // wall time, with rejected trials, of which
-  double prepare_seconds = 0.0, sum_seconds = 0.0, surface_seconds = 0.0, coarse_seconds = 0.0;
+  double prepare_seconds = 0.0, sum_seconds = 0.0, rough_sum_seconds = 0.0, surface_seconds = 0.0;
 };
 
 class Simulation {
@@ -90,7 +90,8 @@ class Simulation {
   Placement placement_;
   std::optional<BackgroundFlow> background_;
   SceneFlows flows_;
-  SceneRadiation radiation_;
+  std::unique_ptr<Radiation> radiation_;  // null: no interactions
+  Recycling memory_{recycled_directions};
   double time_ = 0.0, dt_ = 0.0;                   // s; dt: to try next
   ScatteringSolution last_, before_;               // of the last two accepted steps
   double last_dt_ = 0.0;

@@ -11,10 +11,27 @@ NamedArray numbers(std::string name, std::vector<double> values) {
   return NamedArray::of(std::move(name), std::move(values), "");
 }
 
-std::vector<double> const& find(std::vector<NamedArray> const& arrays, std::string const& name) {
+NamedArray directions(std::string name, Recycling::Directions const& d) {
+  return {std::move(name), {static_cast<std::size_t>(d.cols()), static_cast<std::size_t>(d.rows())},
+          std::vector<double>(d.data(), d.data() + d.size()), "", true};
+}
+
+NamedArray const& find_array(std::vector<NamedArray> const& arrays, std::string const& name) {
   for (auto const& array : arrays)
-    if (array.name == name) return std::get<std::vector<double>>(array.values);
+    if (array.name == name) return array;
   throw SceneError("the stored state lacks " + name + ": it was not written by this program, or by another version");
+}
+
+std::vector<double> const& find(std::vector<NamedArray> const& arrays, std::string const& name) {
+  return std::get<std::vector<double>>(find_array(arrays, name).values);
+}
+
+Recycling::Directions find_directions(std::vector<NamedArray> const& arrays, std::string const& name) {
+  auto const& shape = find_array(arrays, name).shape;
+  auto const& values = find(arrays, name);
+  return Eigen::Map<Eigen::MatrixXd const>(values.data(), static_cast<Eigen::Index>(shape.at(1)),
+                                           static_cast<Eigen::Index>(shape.at(0)))
+      .cast<float>();
 }
 
 PointArray find_points(std::vector<NamedArray> const& arrays, std::string const& name) {
@@ -103,7 +120,7 @@ std::vector<NamedArray> Simulation::frame() const {
   };
   if (!bodies_.empty()) append(body_frame());
   if (fibers_.count() > 0) append(fiber_frame()), append(fiber_end_frame());
-  if (radiation_.fine) {
+  if (radiation_) {
     std::size_t const n_fiber_node = std::min(fibers_.node_count(), last_.incident.size());
     PointArray incident(last_.incident.begin() + static_cast<long>(n_fiber_node), last_.incident.end());
     append({NamedArray::of("flow/incident", incident, "um/s")});
@@ -128,7 +145,8 @@ std::vector<NamedArray> Simulation::restart() const {
   if (growth_) append(growth_->state());
   append({NamedArray::of("flow/incident", last_.incident, "um/s"),
           NamedArray::of("flow/incident_before", before_.incident, "um/s"),
-          NamedArray::of("flow/force_density", last_.force_density, "pN/um")});
+          NamedArray::of("flow/force_density", last_.force_density, "pN/um"),
+          directions("solver/changes", memory_.changes()), directions("solver/images", memory_.images())});
   return arrays;
 }
 
@@ -149,6 +167,7 @@ void Simulation::restore(double time, std::vector<NamedArray> const& arrays) {
   last_.incident = find_points(arrays, "flow/incident");
   before_.incident = find_points(arrays, "flow/incident_before");
   last_.force_density = find_points(arrays, "flow/force_density");
+  memory_.restore(find_directions(arrays, "solver/changes"), find_directions(arrays, "solver/images"));
 }
 
 }  // namespace asterflow

@@ -10,7 +10,7 @@
 namespace asterflow {
 
 StoredFlow::StoredFlow(Scene const& scene, Frame const& frame)
-    : StoredFlow(scene, make_flows(scene, Resolution::fine), frame) {}
+    : StoredFlow(scene, make_flows(scene), frame) {}
 
 StoredFlow::StoredFlow(Scene const& scene, SceneFlows const& flows, Frame const& frame) : scene_(scene) {
   if (scene.run.interactions == Interactions::local)

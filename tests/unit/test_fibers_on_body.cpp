@@ -37,6 +37,17 @@ struct Swimmer {
     }
   }
 
+  // Of the loads of a flow on the body with those that come with the fibers' forces.
+  double disagreement_of_loads() const {
+    PointArray u, f(fibers.node_count());
+    for (Vec3d x : fibers.nodes()) u.push_back({std::sin(x.y), 0.3 * x.z * x.x, std::cos(x.x)});
+    Vector6 const rest = Vector6::Zero();
+    Vector6 load = rest, alone = rest;
+    fibers.add_linear_response(u, {&rest, 1}, f, {&load, 1});
+    fibers.add_loads(u, {&alone, 1});
+    return (load - alone).norm() / load.norm();
+  }
+
   void step(double dt) {
     BodyMotionMap const& map = body.predict(dt);
     fibers.begin_step();
@@ -120,5 +131,13 @@ TEST(FibersOnBody, forces_and_torques_on_the_fluid_balance_what_is_applied) {
       swimmer.step(0.05);
       EXPECT_LT(swimmer.imbalance.norm(), 1e-10 * swimmer.largest);
     }
+  }
+}
+
+TEST(FibersOnBody, load_of_a_flow_is_the_same_with_and_without_the_force_density) {
+  for (MinusEnd minus_end : {MinusEnd::clamped, MinusEnd::hinged}) {
+    Swimmer swimmer(minus_end);
+    for (int i = 0; i < 3; ++i) swimmer.step(0.05);
+    EXPECT_LT(swimmer.disagreement_of_loads(), 1e-12);
   }
 }
