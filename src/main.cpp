@@ -7,6 +7,7 @@
 #include "command/export.hpp"
 #include "command/flow.hpp"
 #include "command/mobility.hpp"
+#include "command/observe.hpp"
 #include "command/resume.hpp"
 #include "command/run.hpp"
 #include "command/sum.hpp"
@@ -47,7 +48,7 @@ int run(int argc, char** argv) {
   for (auto const add : {asterflow::add_run_command, asterflow::add_resume_command, asterflow::add_check_command,
                          asterflow::add_mobility_command, asterflow::add_flow_command, asterflow::add_drag_command,
                          asterflow::add_export_command, asterflow::add_sum_command,
-                         asterflow::add_torque_command})
+                         asterflow::add_torque_command, asterflow::add_observe_command})
     add(program, chosen);
   try {
     program.parse(argc, argv);

@@ -52,4 +52,13 @@ void StoredFlow::velocity(ConstPoints points, Points velocity) const {
   if (scene_.background) BackgroundFlow(*scene_.background).add_velocity(points, velocity);
 }
 
+PointArray StoredFlow::incident_at_fibers() const {
+  PointArray received(incident_.size());
+  radiation_->exchange(force_density_, motions_, incident_, received);
+  received.resize(force_density_.size());
+  if (scene_.background)
+    BackgroundFlow(*scene_.background).add_velocity(radiation_->nodes().first(received.size()), received);
+  return received;
+}
+
 }  // namespace asterflow

@@ -19,6 +19,9 @@ class StoredFlow {
   // velocity [n] (um/s) at points [n] of the fluid, overwritten.
   void velocity(ConstPoints points, Points velocity) const;
 
+  // Flow of all other objects and the background at the fibers' nodes, um/s.
+  PointArray incident_at_fibers() const;
+
   Radiation const& radiation() const { return *radiation_; }
   std::vector<Vector6> const& motions() const { return motions_; }  // [n_body] um/s, 1/s
   // Flow of all other objects at the nodes of bodies and periphery, um/s.

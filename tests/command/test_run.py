@@ -1,5 +1,6 @@
 """asterflow run, resume, check, mobility, flow and export: results, exact resuming, and every kind of bad input."""
 
+import csv
 import json
 import math
 import os
@@ -166,6 +167,36 @@ class Run(SceneTest):
         self.assertIn("asterflow flow", result.stderr)
         with h5py.File(self.trajectory) as file:
             self.assertGreaterEqual(len(file["time"]), 1)
+
+
+class Observe(SceneTest):
+    def table(self, name):
+        with open(self.out / name, newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_observables_of_a_run_are_the_same_after_resuming(self):
+        self.run_scene(ASTER.replace("local", "open"))
+        self.expect_done("observe", self.out)
+        whole = self.table("observables.csv")
+        self.assertEqual(len(whole), 13)
+        self.assertLess(float(whole[-1]["force_imbalance"]), 1e-3)
+        self.assertAlmostEqual(sum(float(f) for name, f in self.table("lengths.csv")[-1].items() if name != "time"), 1, 5)
+        self.assertTrue((self.out / "observables.png").exists())
+        self.out = self.folder / "parts"
+        self.run_scene(ASTER.replace("local", "open"), "--set", "run.end_time=1.5")
+        self.expect_done("resume", self.out, "--set", "run.end_time=3")
+        self.expect_done("observe", self.out)
+        for before, after in zip(whole[:7], self.table("observables.csv")):
+            self.assertEqual(before, after)
+
+    def test_observing_without_flow_or_trajectory(self):
+        self.run_scene(ASTER)
+        self.expect_done("observe", self.out, "--every", 5, "--no-flow", "-o", self.folder / "quick")
+        with open(self.folder / "quick" / "observables.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([float(row["time"]) for row in rows], [0, 1.25, 2.5])
+        self.assertNotIn("net_force_x", rows[0])
+        self.expect_refusal("observe", self.folder / "nowhere", names=["nowhere"])
 
 
 class BadRun(SceneTest):

@@ -1,0 +1,133 @@
+#include "command/observe.hpp"
+
+#include "base/error.hpp"
+#include "io/picture.hpp"
+#include "io/scene.hpp"
+#include "io/trajectory.hpp"
+#include "observable/body_observables.hpp"
+#include "observable/fiber_observables.hpp"
+#include "observable/flow_observables.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+#include <unistd.h>
+
+namespace asterflow {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct ObserveOptions {
+  std::string folder;
+  std::string output;
+  int every = 1;
+  bool has_flow = true;
+};
+
+constexpr double bin_width = 1.0;  // um, of the distribution of lengths
+constexpr int n_bin = 40;
+
+// A table that is written row by row under another name and takes its own when it is whole.
+class TableFile {
+ public:
+  explicit TableFile(fs::path path) : path_(std::move(path)), part_(path_.string() + ".part"), file_(part_) {}
+
+  void line(std::string const& text) { file_ << text << '\n'; }
+
+  fs::path finish() {
+    file_.close();
+    std::error_code error;
+    if (file_) fs::rename(part_, path_, error);
+    if (!file_ || error)
+      throw SceneError(path_.string() + ": cannot be written; is the disk full or the folder protected?");
+    return path_;
+  }
+
+ private:
+  fs::path path_, part_;
+  std::ofstream file_;
+};
+
+std::string header_line(Observables const& row) {
+  std::string line = "time";
+  for (auto const& observable : row) line += "," + observable.name;
+  return line;
+}
+
+std::string value_line(double time, Observables const& row) {
+  std::string line = fmt::format("{:.9g}", time);
+  for (auto const& observable : row) line += fmt::format(",{:.9g}", observable.value);
+  return line;
+}
+
+std::string distribution_line(double time, StoredFibers const& fibers) {
+  std::string line = fmt::format("{:.9g}", time);
+  for (double const fraction : length_distribution(fibers, bin_width, n_bin)) line += fmt::format(",{:.6g}", fraction);
+  return line;
+}
+
+std::string distribution_header() {
+  std::string line = "time";
+  for (int i = 0; i < n_bin; ++i) line += fmt::format(",from_{:g}", i * bin_width);
+  return line;
+}
+
+void show_progress(std::size_t frame, std::size_t count) {
+  if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{} of {} states", frame + 1, count);
+}
+
+void observe(ObserveOptions const& options) {
+  TrajectoryReader const trajectory(options.folder);
+  auto const& header = trajectory.header();
+  Scene const scene = parse_scene(header.scene_text, header.scene_file, header.overrides);
+  SceneFlows const flows = options.has_flow ? make_flows(scene, Resolution::fine) : SceneFlows{};
+  fs::path const folder = options.output.empty() ? fs::path(options.folder) : fs::path(options.output);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || ::access(folder.c_str(), W_OK) != 0)
+    throw SceneError(folder.string() + ": cannot be used for output; choose another folder with -o");
+  TableFile table(folder / "observables.csv"), distribution(folder / "lengths.csv");
+  std::size_t const n = trajectory.times().size();
+  for (std::size_t i = 0; i < n; i += options.every) {
+    Frame const frame = trajectory.frame(i);
+    StoredFibers const fibers = stored_fibers(scene, frame);
+    Observables row = body_observables(scene, frame);
+    auto const append = [&](Observables const& more) { row.insert(row.end(), more.begin(), more.end()); };
+    append(fiber_observables(fibers));
+    if (options.has_flow) append(flow_observables(scene, flows, frame, fibers));
+    if (i == 0) table.line(header_line(row)), distribution.line(distribution_header());
+    table.line(value_line(frame.time, row));
+    distribution.line(distribution_line(frame.time, fibers));
+    show_progress(i, n);
+  }
+  if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
+  fs::path const numbers = table.finish(), lengths = distribution.finish(), picture = folder / "observables.png";
+  fmt::print("{}\n{}\n", numbers.string(), lengths.string());
+  if (draw_picture("plot_observables.py", {numbers.string(), lengths.string(), picture.string()}))
+    fmt::print("{}\n", picture.string());
+}
+
+}  // namespace
+
+void add_observe_command(CLI::App& program, Action& chosen) {
+  auto const options = std::make_shared<ObserveOptions>();
+  auto* const command = program.add_subcommand(
+      "observe", "What a trajectory shows, state by state: where bodies are and how they move, forces at the ends of the\n"
+                 "fibers, their lengths, bending and tension, work, force and stresslet on the fluid, its speed.\n"
+                 "Writes observables.csv, lengths.csv (distribution of lengths) and observables.png;\n"
+                 "docs/observables.md says what the columns are.");
+  command->add_option("folder", options->folder, "output folder of a run, finished or not")->required();
+  command->add_option("-o,--output", options->output, "folder; that of the run when not given");
+  command->add_option("--every", options->every, "only every n-th stored state")
+      ->capture_default_str()->check(CLI::Range(1, 1000000));
+  command->add_flag("!--no-flow", options->has_flow, "leave out what needs the flow: power, force on the fluid, speeds");
+  command->footer(examples(
+      "  asterflow observe out\n"
+      "  asterflow observe out --every 10 --no-flow -o quick-look\n"));
+  command->callback([options, &chosen] { chosen = [options] { observe(*options); }; });
+}
+
+}  // namespace asterflow

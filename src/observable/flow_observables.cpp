@@ -1,0 +1,128 @@
+#include "observable/flow_observables.hpp"
+
+#include "fiber/fibers.hpp"
+#include "observable/fluid_samples.hpp"
+#include "observable/force_moments.hpp"
+#include "system/no_slip.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace asterflow {
+namespace {
+
+constexpr char const* axes = "xyz";
+
+// Material velocities [n_node] of the fibers: V = u + c (I + t t) (f + f_motor).
+PointArray material_velocities(StoredFlow const& flow, double viscosity, StoredFibers const& fibers,
+                               ConstPoints tangents) {
+  PointArray velocity = flow.incident_at_fibers();
+  for (std::size_t i = 0; i < fibers.count(); ++i) {
+    double const c = slender_body_mobility(fibers.length[i], fibers.material[i].radius, viscosity);
+    for (auto k = fibers.first[i]; k < fibers.first[i + 1]; ++k) {
+      Vec3d const force = fibers.force_density[k] + fibers.motor_load[i] * tangents[k];
+      velocity[k] += c * (force + dot(tangents[k], force) * tangents[k]);
+    }
+  }
+  return velocity;
+}
+
+void add_power(StoredFlow const& flow, Scene const& scene, StoredFibers const& fibers, Observables& row) {
+  PointArray tangents(fibers.position.size()), curvatures(fibers.position.size());
+  for (std::size_t i = 0; i < fibers.count(); ++i)
+    differentiate(fibers, i, Points(tangents).subspan(fibers.first[i], fibers.node_count(i)),
+                  Points(curvatures).subspan(fibers.first[i], fibers.node_count(i)));
+  PointArray const velocity = material_velocities(flow, scene.fluid.viscosity, fibers, tangents);
+  double motors = 0.0, tips = 0.0, bodies = 0.0;
+  for (std::size_t i = 0; i < fibers.count(); ++i) {
+    for (auto k = fibers.first[i]; k < fibers.first[i + 1]; ++k)
+      motors += fibers.weight[k] * fibers.motor_load[i] * dot(tangents[k], velocity[k]);
+    if (norm(fibers.plus_end_force[i]) > 0.0)
+      tips += dot(fibers.plus_end_force[i],
+                  value_at_plus_end(ConstPoints(velocity).subspan(fibers.first[i], fibers.node_count(i))));
+  }
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (scene.bodies[b].motion == BodySpec::Motion::free)
+      bodies += flow.motions()[b].head<3>().dot(to_eigen(scene.bodies[b].force)) +
+                flow.motions()[b].tail<3>().dot(to_eigen(scene.bodies[b].torque));
+  row.push_back({"motor_power", motors});
+  row.push_back({"tip_power", tips});
+  row.push_back({"body_power", bodies});
+}
+
+// Forces from outside on plus ends, along fibers and on free bodies; NaN with held bodies, whose holder is not stored.
+Vec3d applied_force(Scene const& scene, StoredFibers const& fibers) {
+  Vec3d sum{};
+  for (std::size_t i = 0; i < fibers.count(); ++i) {
+    sum += fibers.plus_end_force[i] + fibers.length[i] * fibers.external_load[i];
+    if (fibers.body[i] < 0) sum -= fibers.minus_end_force[i];  // what holds it in space gives this back
+  }
+  for (auto const& body : scene.bodies)
+    sum += body.motion == BodySpec::Motion::free ? body.force : Vec3d{std::nan(""), 0.0, 0.0};
+  return sum;
+}
+
+void add_moments(StoredFlow const& flow, Scene const& scene, SceneFlows const& flows, StoredFibers const& fibers,
+                 Observables& row) {
+  Vec3d const centre = scene.bodies.empty() ? Vec3d{} : flow.radiation().body_pose(0).position;
+  ForceMoments const sum = force_moments(flow, flows, scene.fluid.viscosity, fibers, centre);
+  for (int k = 0; k < 3; ++k) row.push_back({std::string("net_force_") + axes[k], sum.force[k]});
+  for (int k = 0; k < 3; ++k) row.push_back({std::string("net_torque_") + axes[k], sum.torque[k]});
+  row.push_back({"force_imbalance", norm(sum.force - applied_force(scene, fibers))});
+  for (auto const& [i, j] : {std::pair{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}})
+    row.push_back({std::string("force_moment_") + axes[i] + axes[j], sum.moment(i, j)});
+  row.push_back({"puller_index", sum.absolute > 0.0 ? -1.5 * sum.moment(0, 0) / sum.absolute : std::nan("")});
+}
+
+PointArray velocity_at(StoredFlow const& flow, ConstPoints points) {
+  PointArray velocity(points.size());
+  if (!points.empty()) flow.velocity(points, velocity);
+  return velocity;
+}
+
+double mean_x(ConstPoints velocity) {
+  double sum = 0.0;
+  for (Vec3d const& u : velocity) sum += u.x;
+  return velocity.empty() ? std::nan("") : sum / static_cast<double>(velocity.size());
+}
+
+void add_speeds(StoredFlow const& flow, Scene const& scene, Frame const& frame, Observables& row) {
+  FluidSamples const samples = fluid_samples(scene, frame);
+  double sum = 0.0, largest = 0.0;
+  for (Vec3d const& u : velocity_at(flow, samples.spread)) sum += norm(u), largest = std::max(largest, norm(u));
+  double const mean = sum / static_cast<double>(samples.spread.size());
+  double const body = scene.bodies.empty() ? std::nan("") : flow.motions()[0].head<3>().norm();
+  row.push_back({"fluid_speed_mean", mean});
+  row.push_back({"fluid_speed_largest", largest});
+  row.push_back({"fluid_speed_ratio", body > 0.0 ? mean / body : std::nan("")});
+  row.push_back({"flow_anterior_x", mean_x(velocity_at(flow, samples.anterior))});
+  row.push_back({"flow_posterior_x", mean_x(velocity_at(flow, samples.posterior))});
+  bool const has_surface = flow.radiation().nodes().size() > flow.radiation().n_fiber_nodes();
+  row.push_back({"no_slip_residual", has_surface ? no_slip_residual(flow).relative() : std::nan("")});
+}
+
+Observables nothing() {
+  Observables row;
+  for (char const* name :
+       {"motor_power", "tip_power", "body_power", "net_force_x", "net_force_y", "net_force_z", "net_torque_x",
+        "net_torque_y", "net_torque_z", "force_imbalance", "force_moment_xx", "force_moment_yy", "force_moment_zz",
+        "force_moment_xy", "force_moment_xz", "force_moment_yz", "puller_index", "fluid_speed_mean",
+        "fluid_speed_largest", "fluid_speed_ratio", "flow_anterior_x", "flow_posterior_x", "no_slip_residual"})
+    row.push_back({name, std::nan("")});
+  return row;
+}
+
+}  // namespace
+
+Observables flow_observables(Scene const& scene, SceneFlows const& flows, Frame const& frame,
+                             StoredFibers const& fibers) {
+  if (scene.run.interactions == Interactions::local || frame.time == 0.0) return nothing();
+  StoredFlow const flow(scene, flows, frame);
+  Observables row;
+  add_power(flow, scene, fibers, row);
+  add_moments(flow, scene, flows, fibers, row);
+  add_speeds(flow, scene, frame, row);
+  return row;
+}
+
+}  // namespace asterflow

@@ -1,0 +1,147 @@
+#include "observable/body_observables.hpp"
+#include "observable/fiber_observables.hpp"
+#include "observable/flow_observables.hpp"
+#include "system/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace asterflow;
+
+namespace {
+
+double value(Observables const& row, std::string const& name) {
+  for (auto const& observable : row)
+    if (observable.name == name) return observable.value;
+  ADD_FAILURE() << "no observable " << name;
+  return 0.0;
+}
+
+struct Observed {
+  Observables bodies, fibers, flow;
+};
+
+Observed observed_after(std::string const& scene_text, double time) {
+  Simulation simulation(parse_scene(scene_text, "test.toml"));
+  while (simulation.time() < time) simulation.step(time);
+  Frame const frame{simulation.time(), simulation.frame()};
+  auto const fibers = stored_fibers(simulation.scene(), frame);
+  return {body_observables(simulation.scene(), frame), fiber_observables(fibers),
+          flow_observables(simulation.scene(), simulation.flows(), frame, fibers)};
+}
+
+std::string const ball = R"(
+  [fluid]
+  viscosity = 1.7
+  [[body]]
+  name = "ball"
+  shape = "sphere"
+  radius = 1.5
+  position = [0.3, -0.2, 0.1]
+)";
+
+std::string const open = "[run]\ninteractions = \"open\"\naccuracy = 1e-6\n";
+
+}  // namespace
+
+TEST(Observables, of_a_dragged_sphere_are_those_of_stokes) {
+  auto const seen = observed_after(ball + "force = [0.4, -1.2, 0.3]\ntorque = [0.0, 2.0, 0.0]\n" + open, 0.01);
+  double const force = std::sqrt(0.16 + 1.44 + 0.09), speed = force / (6 * M_PI * 1.7 * 1.5);
+  double const turning = 2.0 / (8 * M_PI * 1.7 * std::pow(1.5, 3));
+  EXPECT_NEAR(value(seen.bodies, "ball_speed"), speed, 1e-6 * speed);
+  EXPECT_NEAR(value(seen.bodies, "ball_angular_velocity_y"), turning, 1e-6 * turning);
+  EXPECT_NEAR(value(seen.flow, "net_force_x"), 0.4, 1e-6);
+  EXPECT_NEAR(value(seen.flow, "net_force_y"), -1.2, 1e-6);
+  EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-6 * force);
+  // Torque about the origin: T + x_c x F.
+  EXPECT_NEAR(value(seen.flow, "net_torque_z"), 0.3 * -1.2 + 0.2 * 0.4, 2e-3);  // x_c has moved a little
+  // All power is dissipated: F^2 / (6 pi mu a) + T^2 / (8 pi mu a^3).
+  EXPECT_NEAR(value(seen.flow, "body_power"), force * speed + 2.0 * turning, 1e-6);
+  EXPECT_LT(std::abs(value(seen.flow, "force_moment_xy")), 1e-6);
+}
+
+// A rigid sphere held in a strain E takes part against it with the stresslet of Batchelor, (20/3) pi mu a^3 E: it exerts
+// the opposite first moment on the fluid.
+TEST(Observables, hold_the_stresslet_of_a_sphere_in_strain) {
+  auto const seen = observed_after(ball + "[background]\ngradient = [[0.2, 0.05, 0], [0.05, -0.1, 0], [0, 0, -0.1]]\n" + open, 0.001);
+  double const factor = -20.0 / 3.0 * M_PI * 1.7 * std::pow(1.5, 3);
+  EXPECT_NEAR(value(seen.flow, "force_moment_xx"), factor * 0.2, 1e-5 * std::abs(factor));
+  EXPECT_NEAR(value(seen.flow, "force_moment_yy"), factor * -0.1, 1e-5 * std::abs(factor));
+  EXPECT_NEAR(value(seen.flow, "force_moment_xy"), factor * 0.05, 1e-5 * std::abs(factor));
+  EXPECT_NEAR(value(seen.flow, "net_force_x"), 0.0, 1e-6);
+  EXPECT_GT(value(seen.flow, "puller_index"), 0.0);  // it resists extension along x
+}
+
+TEST(Observables, hold_the_moment_of_point_forces_whatever_carries_them) {
+  // Two short fibers, pulled apart along x: a pusher with M_xx = 2/3 d F.
+  std::string const fiber = "[[fiber]]\nlength = 1.0\nnodes = 8\nforce_density = [%, 0, 0]\nposition = [%, 0, 0]\n";
+  auto const with = [&](std::string density, std::string x) {
+    std::string text = fiber;
+    text.replace(text.find('%'), 1, density);
+    return text.replace(text.find('%'), 1, x);
+  };
+  auto const seen = observed_after(with("2.0", "4.5") + with("-2.0", "-5.5") + "[fluid]\nviscosity = 1.7\n" + open, 0.001);
+  EXPECT_NEAR(value(seen.flow, "force_moment_xx"), 2.0 / 3.0 * 10.0 * 2.0, 0.01);
+  EXPECT_NEAR(value(seen.flow, "force_moment_yy"), -1.0 / 3.0 * 10.0 * 2.0, 0.01);
+  EXPECT_NEAR(value(seen.flow, "puller_index"), -1.0, 1e-3);
+  EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-8);
+}
+
+TEST(Observables, of_straight_fibers_have_no_bending) {
+  auto const seen = observed_after("[[fiber]]\nlength = 3.0\n[[fiber]]\nlength = 5.0\nposition = [0, 4, 0]\n" + open, 0.01);
+  EXPECT_NEAR(value(seen.fibers, "length_mean"), 4.0, 1e-12);
+  EXPECT_NEAR(value(seen.fibers, "length_deviation"), 1.0, 1e-12);
+  EXPECT_NEAR(value(seen.fibers, "length_largest"), 5.0, 1e-12);
+  EXPECT_LT(value(seen.fibers, "curvature_largest"), 1e-9);
+  EXPECT_LT(value(seen.fibers, "elastic_energy"), 1e-12);
+  EXPECT_EQ(value(seen.fibers, "fibers_captured"), 0.0);
+}
+
+TEST(Observables, of_an_arc_hold_its_curvature_and_energy) {
+  constexpr double radius = 4.0, angle = 1.2;
+  std::string points;
+  for (int i = 0; i <= 60; ++i) {
+    double const turn = angle * i / 60;
+    points += (i > 0 ? ", [" : "[") + std::to_string(radius * std::sin(turn)) + ", " +
+              std::to_string(radius * (1 - std::cos(turn))) + ", 0]";
+  }
+  std::string const scene = "[[fiber]]\nbending_rigidity = 7.0\nnodes = 24\npoints = [" + points + "]\n";
+  Simulation const simulation(parse_scene(scene + open, "test.toml"));
+  auto const row = fiber_observables(stored_fibers(simulation.scene(), {0.0, simulation.frame()}));
+  // The smooth curve through the points is straight at its very ends: 1 / 60 of it on each side.
+  EXPECT_NEAR(value(row, "curvature_mean"), 1 / radius, 1e-2 / radius);
+  EXPECT_NEAR(value(row, "elastic_energy"), 0.5 * 7.0 * angle / radius, 2e-2);
+  EXPECT_NEAR(value(row, "elastic_energy"), simulation.fibers().elastic_energy(), 1e-9);
+}
+
+TEST(Observables, of_a_body_measure_the_angle_of_its_aster) {
+  std::string const aster = "[[aster]]\nbody = \"ball\"\nposition = [0, 1.5, 0]\ncount = 2\nlength = 1.0\nopening = 20\n";
+  Simulation const simulation(
+      parse_scene(ball + "rotation_axis = [0, 0, 1]\nrotation_angle = 130\n" + aster + open, "test.toml"));
+  EXPECT_NEAR(value(body_observables(simulation.scene(), {0.0, simulation.frame()}), "ball_angle"), 40.0, 1e-9);
+}
+
+TEST(Observables, of_a_closed_scene_balance_force_and_torque) {
+  std::string const aster = R"(
+    [[aster]]
+    body = "ball"
+    position = [0.0, 1.5, 0.0]
+    opening = 60
+    count = 6
+    length = 2.0
+    nodes = 8
+  )";
+  auto const seen = observed_after(ball + "force = [1.0, 0.5, 0.0]\n" + aster + R"(
+    [periphery]
+    shape = "sphere"
+    radius = 6.0
+    [run]
+    accuracy = 1e-6
+    adaptive = false
+    time_step = 0.01)", 0.05);
+  EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-6);
+  EXPECT_NEAR(value(seen.flow, "net_force_x"), 1.0, 1e-6);
+  EXPECT_GT(value(seen.flow, "body_power"), 0.0);
+  EXPECT_GT(value(seen.flow, "fluid_speed_ratio"), 0.0);
+  EXPECT_LT(value(seen.flow, "fluid_speed_ratio"), 1.0);
+  EXPECT_LT(value(seen.flow, "no_slip_residual"), 1e-3);
+}
