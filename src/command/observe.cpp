@@ -83,7 +83,7 @@ void observe(ObserveOptions const& options) {
   TrajectoryReader const trajectory(options.folder);
   auto const& header = trajectory.header();
   Scene const scene = parse_scene(header.scene_text, header.scene_file, header.overrides);
-  SceneFlows const flows = options.has_flow ? make_flows(scene, Resolution::fine) : SceneFlows{};
+  SceneFlows const flows = options.has_flow ? make_flows(scene) : SceneFlows{};
   fs::path const folder = options.output.empty() ? fs::path(options.folder) : fs::path(options.output);
   std::error_code error;
   fs::create_directories(folder, error);
