@@ -28,16 +28,19 @@ double crossover(std::string_view kernel, double accuracy) {
 
 class Automatic final : public Evaluator {
  public:
-  Automatic(std::string_view kernel, double accuracy) : kernel_(kernel), accuracy_(accuracy) {}
+  Automatic(std::string_view kernel, EvaluatorOptions const& options) : kernel_(kernel), options_(options) {}
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
     auto& wanted = is_fast_cheaper(sources, targets) ? fast_ : direct_;
-    if (!wanted) wanted = &wanted == &fast_ ? make_fast(kernel_, accuracy_) : make_direct(kernel_, accuracy_);
+    if (!wanted) wanted = &wanted == &fast_ ? make_fast(kernel_, options_) : make_direct(kernel_, options_);
     used_ = wanted.get();
     used_->set_points(sources, targets, normals);
   }
   void add_velocity(ConstPoints strengths, Points velocity) override {
     if (used_) used_->add_velocity(strengths, velocity);
+  }
+  void add_gradient(ConstPoints strengths, Points gradient) override {
+    if (used_) used_->add_gradient(strengths, gradient);
   }
   std::string_view backend() const override { return used_ ? used_->backend() : "auto"; }
   std::size_t memory() const override {
@@ -46,23 +49,23 @@ class Automatic final : public Evaluator {
 
  private:
   bool is_fast_cheaper(ConstPoints sources, ConstPoints targets) const {
-    if (accuracy_ < 1e-12) return false;
+    if (options_.accuracy < 1e-12) return false;
     bool const same = sources.data() == targets.data() && sources.size() == targets.size();
     double const n_source = static_cast<double>(sources.size()), n_target = static_cast<double>(targets.size());
     double const direct = n_source * n_target * (same ? 1.0 : separate_points);
-    return direct > crossover(kernel_, accuracy_) * 0.5 * (n_source + n_target);
+    return direct > crossover(kernel_, options_.accuracy) * 0.5 * (n_source + n_target);
   }
 
   std::string kernel_;
-  double accuracy_;
+  EvaluatorOptions options_;
   std::unique_ptr<Evaluator> direct_, fast_;
   Evaluator* used_ = nullptr;
 };
 
 }  // namespace
 
-std::unique_ptr<Evaluator> make_automatic(std::string_view kernel, double accuracy) {
-  return std::make_unique<Automatic>(kernel, accuracy);
+std::unique_ptr<Evaluator> make_automatic(std::string_view kernel, EvaluatorOptions const& options) {
+  return std::make_unique<Automatic>(kernel, options);
 }
 
 }  // namespace asterflow

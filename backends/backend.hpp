@@ -6,17 +6,18 @@
 
 namespace asterflow {
 
-std::unique_ptr<Evaluator> make_reference(std::string_view kernel, double accuracy);
-std::unique_ptr<Evaluator> make_direct(std::string_view kernel, double accuracy);  // the best of those below
-std::unique_ptr<Evaluator> make_direct_portable(std::string_view kernel, double accuracy);
-std::unique_ptr<Evaluator> make_direct_avx2(std::string_view kernel, double accuracy);
-std::unique_ptr<Evaluator> make_direct_avx512(std::string_view kernel, double accuracy);
+using Maker = std::unique_ptr<Evaluator>(std::string_view kernel, EvaluatorOptions const& options);
 
-// Whether this build and this machine can run the backend.
-bool has_direct_avx2();
-bool has_direct_avx512();
-std::unique_ptr<Evaluator> make_automatic(std::string_view kernel, double accuracy);  // direct or fast
-std::unique_ptr<Evaluator> make_fast(std::string_view kernel, double accuracy);
+Maker make_reference;
+Maker make_direct;  // the best of those below
+Maker make_direct_portable, make_direct_avx2, make_direct_avx512;
+Maker make_fast;  // the best of those below
+Maker make_fast_portable, make_fast_avx2, make_fast_avx512;
+Maker make_automatic;  // direct or fast
+
+// Whether this build and this machine can run the loops of an instruction set.
+bool has_avx2();
+bool has_avx512();
 
 // What the pair loops of an instruction set ("avx2", "avx512") do for an accuracy where the points allow: for
 // benchmarks that count instructions.

@@ -6,12 +6,12 @@
 
 namespace asterflow {
 
-std::unique_ptr<Evaluator> make_direct(std::string_view kernel, double accuracy) {
+std::unique_ptr<Evaluator> make_direct(std::string_view kernel, EvaluatorOptions const& options) {
   constexpr bool is_host =
       Kokkos::SpaceAccessibility<Kokkos::HostSpace, Kokkos::DefaultExecutionSpace::memory_space>::accessible;
-  if (is_host && has_direct_avx512()) return make_direct_avx512(kernel, accuracy);
-  if (is_host && has_direct_avx2()) return make_direct_avx2(kernel, accuracy);
-  return make_direct_portable(kernel, accuracy);
+  if (is_host && has_avx512()) return make_direct_avx512(kernel, options);
+  if (is_host && has_avx2()) return make_direct_avx2(kernel, options);
+  return make_direct_portable(kernel, options);
 }
 
 }  // namespace asterflow

@@ -68,6 +68,14 @@ class DirectHost final : public Evaluator {
       in_double_.add_velocity(strengths, velocity);
   }
 
+  void add_gradient(ConstPoints strengths, Points gradient) override {
+    ASTERFLOW_REQUIRE(strengths.size() == n_source_ && gradient.size() == 3 * n_target_);
+    if (uses_float_)
+      in_float_->add_gradient(strengths, gradient);
+    else
+      in_double_.add_gradient(strengths, gradient);
+  }
+
   std::string_view backend() const override {
     return instructions_ == InstructionSet::avx512 ? "direct-avx512" : "direct-avx2";
   }
@@ -94,30 +102,17 @@ KernelTraits traits_of(std::string_view name) {
   return traits;
 }
 
+// A gradient has one more factor 1 / |r|, at most.
+double pair_accuracy(EvaluatorOptions const& options) { return options.gradient ? 0.5 * options.accuracy : options.accuracy; }
+
 }  // namespace
 
-bool has_direct_avx2() {
-#ifdef ASTERFLOW_HAS_X86_SIMD
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#else
-  return false;
-#endif
+std::unique_ptr<Evaluator> make_direct_avx2(std::string_view kernel, EvaluatorOptions const& options) {
+  return std::make_unique<DirectHost>(InstructionSet::avx2, traits_of(kernel), pair_accuracy(options));
 }
 
-bool has_direct_avx512() {
-#ifdef ASTERFLOW_HAS_X86_SIMD
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-#else
-  return false;
-#endif
-}
-
-std::unique_ptr<Evaluator> make_direct_avx2(std::string_view kernel, double accuracy) {
-  return std::make_unique<DirectHost>(InstructionSet::avx2, traits_of(kernel), accuracy);
-}
-
-std::unique_ptr<Evaluator> make_direct_avx512(std::string_view kernel, double accuracy) {
-  return std::make_unique<DirectHost>(InstructionSet::avx512, traits_of(kernel), accuracy);
+std::unique_ptr<Evaluator> make_direct_avx512(std::string_view kernel, EvaluatorOptions const& options) {
+  return std::make_unique<DirectHost>(InstructionSet::avx512, traits_of(kernel), pair_accuracy(options));
 }
 
 PairArithmetic pair_arithmetic(std::string_view instructions, std::string_view kernel, double accuracy) {

@@ -5,6 +5,7 @@
 #include "backends/backend.hpp"
 #include "backends/frame.hpp"
 #include "base/error.hpp"
+#include "kernels/dual.hpp"
 #include "kernels/list.hpp"
 
 #include <Kokkos_Core.hpp>
@@ -65,16 +66,46 @@ class PortableSum {
 
   void add_velocity(ConstPoints strengths, Points velocity) {
     if (n_source_ == 0 || n_target_ == 0) return;
-    double const unit = strength_unit(strengths);
-    for (int j = 0; j < n_source_; ++j)
-      put(&host_records_(j * width + n_coordinates<Real>), 1, (1.0 / unit) * strengths[j]);
-    Kokkos::deep_copy(Space(), records_, host_records_);
+    double const unit = put_strengths(strengths);
     sum();
     Kokkos::deep_copy(Space(), host_velocity_, velocity_);
     Space().fence();  // the host reads the velocity
     double const factor = Kernel::prefactor * unit * std::pow(frame_.scale, Kernel::decay);
     for (int i = 0; i < n_target_; ++i)
       velocity[i] += factor * Vec3d{host_velocity_(3 * i), host_velocity_(3 * i + 1), host_velocity_(3 * i + 2)};
+  }
+
+  void add_gradient(ConstPoints strengths, Points gradient) {
+    if (n_source_ == 0 || n_target_ == 0) return;
+    double const factor = Kernel::prefactor * put_strengths(strengths) * std::pow(frame_.scale, Kernel::decay + 1);
+    Numbers<double> slopes(Kokkos::view_alloc("asterflow::PortableSum::slopes", Kokkos::WithoutInitializing), 9 * n_target_);
+    sum_slopes(slopes);
+    auto const host_slopes = Kokkos::create_mirror_view(slopes);
+    Kokkos::deep_copy(Space(), host_slopes, slopes);
+    Space().fence();  // the host reads the gradient
+    for (int k = 0; k < 9 * n_target_; ++k) gradient[k / 3][k % 3] += factor * host_slopes(k);
+  }
+
+  // slopes [n_target][3][3] = sums of the gradient of shape(), without factors.
+  void sum_slopes(Numbers<double> const& slopes) const {
+    auto const records = records_, targets = targets_;
+    int const n_source = n_source_;
+    Kokkos::parallel_for("asterflow::PortableSum::sum_slopes", Kokkos::RangePolicy<Space>(0, n_target_), KOKKOS_LAMBDA(int i) {
+      using D = Dual<Real>;
+      auto const x = Coordinates<Real>::at(&targets(i * n_coordinates<Real>));
+      double total[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+      for (int j = 0; j < n_source; ++j) {
+        Real const* const source = &records(j * width);
+        Real const* const q = source + n_coordinates<Real>;
+        Vec3<Real> const r = x - Coordinates<Real>::at(source);
+        Vec3<D> normal{};
+        if constexpr (Kernel::has_normal) normal = {q[3], q[4], q[5]};
+        Vec3<D> const u = Kernel::template shape<D>(differentiable(r), differentiable_inverse(r, inverse_distance(r)),
+                                                    {q[0], q[1], q[2]}, normal);
+        for (int k = 0; k < 9; ++k) total[k] += u[k / 3].slope[k % 3];
+      }
+      for (int k = 0; k < 9; ++k) slopes(9 * i + k) = total[k];
+    });
   }
 
   // velocity_ = sums of shape(), without factors.
@@ -125,6 +156,15 @@ class PortableSum {
     return sizeof(Real) * (records_.size() + targets_.size()) + sizeof(double) * velocity_.size();
   }
 
+  // Sends the strengths in units of the number returned.
+  double put_strengths(ConstPoints strengths) {
+    double const unit = strength_unit(strengths);
+    for (int j = 0; j < n_source_; ++j)
+      put(&host_records_(j * width + n_coordinates<Real>), 1, (1.0 / unit) * strengths[j]);
+    Kokkos::deep_copy(Space(), records_, host_records_);
+    return unit;
+  }
+
  private:
   template <class View>
   static void grow(View& numbers, std::size_t n, char const* label) {
@@ -144,7 +184,8 @@ class PortableSum {
 template <PairKernel Kernel>
 class DirectPortable final : public Evaluator {
  public:
-  explicit DirectPortable(double accuracy) : may_use_float_(accuracy >= float_rounding) {}
+  explicit DirectPortable(EvaluatorOptions const& options)
+      : may_use_float_(options.accuracy >= (options.gradient ? 2.0 : 1.0) * float_rounding) {}
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
     ASTERFLOW_REQUIRE(normals.size() == (Kernel::has_normal ? sources.size() : 0));
@@ -166,6 +207,14 @@ class DirectPortable final : public Evaluator {
       in_double_.add_velocity(strengths, velocity);
   }
 
+  void add_gradient(ConstPoints strengths, Points gradient) override {
+    ASTERFLOW_REQUIRE(strengths.size() == n_source_ && gradient.size() == 3 * n_target_);
+    if (uses_float_)
+      in_float_.add_gradient(strengths, gradient);
+    else
+      in_double_.add_gradient(strengths, gradient);
+  }
+
   std::string_view backend() const override { return "direct-portable"; }
   std::size_t memory() const override { return in_float_.memory() + in_double_.memory(); }
 
@@ -178,9 +227,9 @@ class DirectPortable final : public Evaluator {
 
 }  // namespace
 
-std::unique_ptr<Evaluator> make_direct_portable(std::string_view kernel, double accuracy) {
+std::unique_ptr<Evaluator> make_direct_portable(std::string_view kernel, EvaluatorOptions const& options) {
   std::unique_ptr<Evaluator> evaluator;
-  with_kernel(kernel, [&](auto k) { evaluator = std::make_unique<DirectPortable<decltype(k)>>(accuracy); });
+  with_kernel(kernel, [&](auto k) { evaluator = std::make_unique<DirectPortable<decltype(k)>>(options); });
   return evaluator;
 }
 

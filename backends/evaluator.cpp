@@ -12,7 +12,7 @@ namespace {
 
 struct Backend {
   std::string_view name;
-  std::unique_ptr<Evaluator> (*make)(std::string_view kernel, double accuracy);
+  Maker* make;
   bool (*is_available)();
 };
 
@@ -21,10 +21,13 @@ bool always() { return true; }
 constexpr std::array backends{
     Backend{"auto", make_automatic, always},
     Backend{"direct", make_direct, always},
-    Backend{"direct-avx512", make_direct_avx512, has_direct_avx512},
-    Backend{"direct-avx2", make_direct_avx2, has_direct_avx2},
+    Backend{"direct-avx512", make_direct_avx512, has_avx512},
+    Backend{"direct-avx2", make_direct_avx2, has_avx2},
     Backend{"direct-portable", make_direct_portable, always},
     Backend{"fast", make_fast, always},
+    Backend{"fast-avx512", make_fast_avx512, has_avx512},
+    Backend{"fast-avx2", make_fast_avx2, has_avx2},
+    Backend{"fast-portable", make_fast_portable, always},
     Backend{"reference", make_reference, always},
 };
 
@@ -44,7 +47,7 @@ std::unique_ptr<Evaluator> make_evaluator(std::string_view kernel, EvaluatorOpti
     throw SceneError("accuracy: " + std::to_string(options.accuracy) + " is outside 1e-15 ... 1e-1");
   for (auto const& backend : backends)
     if (options.backend == backend.name && backend.is_available())
-      return backend.make(kernel, options.accuracy);
+      return backend.make(kernel, options);
   std::string known;
   for (auto const& name : backend_names()) known += (known.empty() ? "" : ", ") + name;
   throw SceneError("backend: unknown \"" + options.backend + "\" (known: " + known + ")");

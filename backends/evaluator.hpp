@@ -14,6 +14,7 @@ namespace asterflow {
 struct EvaluatorOptions {
   std::string backend = "auto";  // see backend_names()
   double accuracy = 1e-6;        // relative L2 error asked for, 1e-3 ... 1e-15
+  bool gradient = false;         // whether add_gradient() will be called, to the same accuracy
 };
 
 class Evaluator {
@@ -28,6 +29,10 @@ class Evaluator {
   // velocity [m, 3] += sum over sources of kernel(target - source, strength), viscosity 1.
   //   strengths [n, 3]
   virtual void add_velocity(ConstPoints strengths, Points velocity) = 0;
+
+  // gradient [m, 3, 3] += d velocity_i / d x_j at the targets, the same sum differentiated; the gradient of
+  // component i at target k is point 3 k + i. Needs EvaluatorOptions::gradient.
+  virtual void add_gradient(ConstPoints strengths, Points gradient) = 0;
 
   // The backend that does the work ("auto" answers with its choice after set_points).
   virtual std::string_view backend() const = 0;

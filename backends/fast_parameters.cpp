@@ -5,9 +5,12 @@
 
 namespace asterflow {
 
+// Differentiation costs about a digit.
+constexpr double gradient_loss = 0.1;
+
 // Fitted to measured errors of uniform and clustered points, see docs/summation.md.
-FastParameters fast_parameters(std::string_view kernel, double accuracy) {
-  double const digits = -std::log10(std::clamp(accuracy, 1e-12, 1e-3));
+FastParameters fast_parameters(std::string_view kernel, double accuracy, bool gradient) {
+  double const digits = -std::log10(std::clamp(gradient ? gradient_loss * accuracy : accuracy, 1e-12, 1e-3));
   constexpr double oversampling = 1.35;
   FastParameters p{};
   p.accuracy = accuracy;
@@ -17,9 +20,15 @@ FastParameters fast_parameters(std::string_view kernel, double accuracy) {
   p.width = static_cast<int>(std::ceil(1.15 * digits + 1.09));
   p.window_shape = M_PI * p.width * (1.0 - 0.5 / oversampling);
   p.local_tolerance = 0.2 * std::pow(10.0, -digits);
-  p.single = accuracy >= 3e-5;
-  p.refinement_steps = p.single ? (accuracy < 3e-4) : (accuracy < 1e-7);
+  p.single = digits <= 4.53;
+  p.refinement_steps = p.single ? (digits > 3.53) : (digits > 7.0);
+  p.gradient = gradient;
+  p.nodes_per_point = p.single ? 40.0 : 20.0 * std::max(1.0, std::pow(digits / 6.0, 3));
   return p;
+}
+
+double FastParameters::max_nodes(std::size_t n_point) const {
+  return std::clamp(nodes_per_point * static_cast<double>(n_point), 2e4 * nodes_per_point, 8e6);
 }
 
 }  // namespace asterflow

@@ -1,6 +1,7 @@
 #pragma once
 // Numbers of the fast summation that follow from the requested accuracy. See docs/summation.md.
 
+#include <cstddef>
 #include <string_view>
 
 namespace asterflow {
@@ -16,12 +17,17 @@ struct FastParameters {
   bool single;              // float arithmetic
   int refinement_steps;     // of the reciprocal square root, beyond the first for double
 
+  bool gradient = false;      // whether gradients will be asked for
+
   long capacity = 200;        // points of a leaf, mean of sources and targets
-  double max_nodes = 8e6;     // of one patch
+  double nodes_per_point;     // bounds the memory of a patch
+  double batch_nodes = 1e6;   // of patches handled together, unless one alone is larger
   double enlargement = 0.0;   // of the root over the points; 0: the cheapest is sought
+
+  double max_nodes(std::size_t n_point) const;  // of one patch; n_point: mean of sources and targets
 };
 
-// For a relative error of `accuracy`, 1e-12 ... 1e-3.
-FastParameters fast_parameters(std::string_view kernel, double accuracy);
+// For a relative error of `accuracy`, 1e-12 ... 1e-3, of the velocity and, where asked for, its gradient.
+FastParameters fast_parameters(std::string_view kernel, double accuracy, bool gradient = false);
 
 }  // namespace asterflow

@@ -2,6 +2,7 @@
 // One rectangular piece of one level: a periodic grid on which the sources near the patch act on the targets
 // inside it through that level's band-limited kernel. Lengths are in units of the root's side.
 
+#include "backends/fast_fourier.hpp"
 #include "backends/fast_tree.hpp"
 
 #include <memory>
@@ -9,7 +10,7 @@
 
 namespace asterflow {
 
-// Points of a patch sorted by the grid tile that holds their first node (16 x 16 nodes in y and z).
+// Points of a patch sorted by the grid tile that holds their first node.
 struct TiledPoints {
   std::vector<std::uint32_t> index;   // in the order of the tree
   std::vector<long> tile_begin;       // [n_tile + 1]
@@ -26,27 +27,26 @@ struct SymbolTable {
 
 template <class Real>
 struct Patch {
-  static constexpr int tile = 16;
-
   int nodes[3] = {0, 0, 0};          // of the periodic grid
   Vec3d origin;                      // position of node (0, 0, 0)
   double spacing = 1.0;
   double scale = 1.0;                // from grid units of velocity to normalised ones
+  int tile_y = 16, tile_z = 16;      // nodes of a tile; the last in a direction takes the rest too
   int tiles_y = 1, tiles_z = 1;
   int target_low[3] = {0, 0, 0};     // nodes from which targets are interpolated
   int target_high[3] = {0, 0, 0};    // one past the last
   TiledPoints sources, targets;
   std::shared_ptr<SymbolTable<Real> const> symbol;
+  LineView<Real> lines[3];
 
-  int tile_of(int node, int direction) const {
-    int const n_tile = direction == 1 ? tiles_y : tiles_z;
-    int const i = node / tile;
-    return i < n_tile ? i : n_tile - 1;
+  void set_tiles(FastLoops<Real> const& loops) {
+    tile_y = loops.tile_y;
+    tile_z = loops.tile_z;
+    tiles_y = nodes[1] < tile_y ? 1 : nodes[1] / tile_y;
+    tiles_z = nodes[2] < tile_z ? 1 : nodes[2] / tile_z;
   }
-  Range tile_nodes(int i_tile, int direction) const {
-    int const n_tile = direction == 1 ? tiles_y : tiles_z;
-    return {i_tile * tile, i_tile + 1 == n_tile ? nodes[direction] : (i_tile + 1) * tile};
-  }
+  long n_tile() const { return static_cast<long>(tiles_y) * tiles_z; }
+  long n_node() const { return static_cast<long>(nodes[0]) * nodes[1] * nodes[2]; }
 };
 
 }  // namespace asterflow

@@ -51,10 +51,12 @@ PointArray thinned(ConstPoints points, long stride) {
 
 double predicted_cost(Octree const& tree, FastParameters const& p, int components, double thinning) {
   Costs const c = costs(p, components);
+  double const n = thinning * static_cast<double>(tree.sources().size() + tree.targets().size());
+  double const max_nodes = p.max_nodes(static_cast<std::size_t>(0.5 * n));
   double cost = c.pair * near_pairs(tree) * thinning * thinning;
   for (int level = tree.first_level(); level < static_cast<int>(tree.refined().size()); ++level) {
     double const per_box = 2.0 * p.nodes_per_cutoff;
-    for (Rectangle const& r : cover(tree.refined()[level], per_box, p.max_nodes)) {
+    for (Rectangle const& r : cover(tree.refined()[level], per_box, max_nodes)) {
       double nodes = 1.0;
       for (int d = 0; d < 3; ++d) nodes *= (r.high[d] - r.low[d] + 3) * per_box;
       cost += c.node * nodes;
@@ -71,7 +73,7 @@ std::unique_ptr<Octree> best_octree(ConstPoints sources, ConstPoints targets, Fa
   if (p.enlargement > 0.0)
     return std::make_unique<Octree>(sources, targets, OctreeOptions{p.capacity, first_level, p.enlargement});
   // Every `stride`-th point is enough to compare.
-  long const stride = 1 + static_cast<long>(n) / 40000;
+  long const stride = 1 + static_cast<long>(n) / 16000;
   PointArray const few_sources = thinned(sources, stride);
   PointArray const few_targets = is_same(sources, targets) ? PointArray{} : thinned(targets, stride);
   ConstPoints const s = few_sources, t = is_same(sources, targets) ? s : ConstPoints(few_targets);

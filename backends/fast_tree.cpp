@@ -88,6 +88,8 @@ Octree::Octree(ConstPoints sources, ConstPoints targets, OctreeOptions const& op
   refine(options);
   balance();
   collect_leaves();
+  source_keys_ = {};
+  target_keys_ = {};
 }
 
 void Octree::sort_points(ConstPoints points, std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& order,
@@ -208,6 +210,14 @@ Box const* Octree::find(std::vector<Box> const& boxes, int x, int y, int z) {
   wanted.key = morton(x, y, z);
   auto const found = std::lower_bound(boxes.begin(), boxes.end(), wanted, by_key);
   return found != boxes.end() && found->key == wanted.key ? &*found : nullptr;
+}
+
+std::size_t Octree::memory() const {
+  std::size_t bytes = sizeof(Vec3d) * (sources_.capacity() + targets_.capacity()) +
+                      sizeof(std::uint32_t) * (source_order_.capacity() + target_order_.capacity());
+  for (auto const* levels : {&refined_, &leaves_})
+    for (auto const& boxes : *levels) bytes += sizeof(Box) * boxes.capacity();
+  return bytes;
 }
 
 void Octree::reorder_targets(Range leaf, std::vector<std::uint32_t> const& order) {

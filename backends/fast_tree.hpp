@@ -42,6 +42,7 @@ class Octree {
   std::vector<std::uint32_t> const& target_order() const { return target_order_; }
   int first_level() const { return first_level_; }
   Vec3d extent() const { return extent_; }              // of all points, normalised
+  std::size_t memory() const;
 
   // By level, sorted by key.
   std::vector<std::vector<Box>> const& refined() const { return refined_; }

@@ -156,6 +156,26 @@ void PackedSum<Real>::add_velocity(ConstPoints strengths, Points velocity) {
   }
 }
 
+// Every group of targets from all sources; those that are sources lie in the rows.
+template <class Real>
+void PackedSum<Real>::add_gradient(ConstPoints strengths, Points gradient) {
+  if (n_source_ == 0 || n_target_ == 0) return;
+  pack_strengths(strengths);
+  double const factor = kernel_.prefactor * strength_unit_ * std::pow(frame_.scale, kernel_.decay + 1);
+  long const lanes = loops_.lanes, width = n_numbers();
+  auto const sum = [&](Real const* groups, long stride, long n, auto const& target) {
+    parallel_for("PackedSum::add_gradient", (n + lanes - 1) / lanes, [&](long g) {
+      std::vector<double> slopes(9 * lanes, 0.0);
+      loops_.add_gradient(groups + g * stride, 1, stride, records_.data(), n_source_, slopes.data());
+      for (long i = g * lanes; i < std::min(n, (g + 1) * lanes); ++i)
+        for (long k = 0; k < 9; ++k) gradient[3 * target(i) + k / 3][k % 3] += factor * slopes[k * lanes + i % lanes];
+    });
+  };
+  sum(rows_.data(), width * lanes, n_self_, [&](long i) { return first_self_ + i; });
+  sum(targets_.data(), n_coordinates<Real> * lanes, n_target_ - n_self_,
+      [&](long i) { return i < first_self_ ? i : i + n_self_; });
+}
+
 template <class Real>
 std::size_t PackedSum<Real>::memory() const {
   return sizeof(Real) * (records_.size() + rows_.size() + targets_.size()) +

@@ -29,6 +29,7 @@ class PackedSum {
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals, Frame const& frame);
   void add_velocity(ConstPoints strengths, Points velocity);
+  void add_gradient(ConstPoints strengths, Points gradient);  // [3 n_target, 3]
   std::size_t memory() const;
 
  private:

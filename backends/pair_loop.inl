@@ -8,6 +8,7 @@
 // stresslet 14, rotlet 11). Acting both ways shares all but the strength-dependent part.
 
 #include "backends/pair_sums.hpp"
+#include "kernels/dual.hpp"
 #include "kernels/list.hpp"
 
 #include <tuple>
@@ -163,6 +164,28 @@ struct PairLoop {
     }
   }
 
+  // Velocities as numbers that carry their gradient.
+  static void add_gradient(Real const* targets, long n_group, long stride, Real const* sources, long n,
+                           double* gradient) {
+    using D = Dual<Vector>;
+    for (long g = 0; g < n_group; ++g) {
+      Coordinates<Real> const x(targets + g * stride);
+      Vec3<D> u;
+      for (long j = 0; j < n; ++j) {
+        Real const* const source = sources + j * n_source;
+        Vec3<Vector> const r = x.minus(source), q = splat(source + n_coordinates);
+        Vec3<Vector> normal{};
+        if constexpr (Kernel::has_normal) normal = splat(source + n_coordinates + 3);
+        u += Kernel::template shape<D>(differentiable(r), differentiable_inverse(r, inverse_distance(r)),
+                                       {q.x, q.y, q.z}, {normal.x, normal.y, normal.z});
+        if (j % sources_at_once != sources_at_once - 1 && j + 1 < n) continue;
+        for (int i = 0; i < 3; ++i)
+          add_to<Real>(gradient + (9 * g + 3 * i) * lanes, Vec3<Vector>{u[i].slope[0], u[i].slope[1], u[i].slope[2]});
+        u = {};
+      }
+    }
+  }
+
   // `groups` lane groups of rows against all columns; reaction [n_column, 3] registers. Distances are computed one
   // column ahead, which gives the processor two independent strands of work.
   template <int groups>
@@ -227,7 +250,7 @@ struct PairLoop {
 template <class Kernel, class Real, int steps>
 PairSums<Real> pair_sums() {
   using Loop = PairLoop<Kernel, Real, steps>;
-  return {Pack<Real>::lanes, steps, InverseSqrtSeries<Real, steps>::error(), Loop::add_one_way, Loop::add_both_ways};
+  return {Pack<Real>::lanes, steps, InverseSqrtSeries<Real, steps>::error(), Loop::add_one_way, Loop::add_both_ways, Loop::add_gradient};
 }
 
 template <class Kernel, class Real, int... steps>

@@ -30,6 +30,10 @@ struct PairSums {
   void (*add_both_ways)(Real const* rows, long n_group, Real const* columns, long n_column, double* row_velocity,
                         double* column_velocity) = nullptr;
   static constexpr long max_column = 64;
+
+  // gradient [n_group, 3, 3, lanes] += d velocity_i / d x_j at the targets; arguments as for add_one_way.
+  void (*add_gradient)(Real const* targets, long n_group, long stride, Real const* sources, long n_source,
+                       double* gradient) = nullptr;
 };
 
 // The loops of kernel number i_kernel of kernels/list.hpp with the given number of correction steps; without

@@ -1,19 +1,19 @@
-#pragma once
-// Short vectors of float or double for the host phases of the fast summation: as wide as the instruction set
-// this file is compiled for. Arithmetic operators are the compiler's vector extension (g++, clang++).
+// Short vectors of float or double for the inner loops of the fast summation: as wide as the instruction set
+// the including file is compiled for. Arithmetic operators are the compiler's vector extension.
 
 #include <cmath>
 #include <cstring>
 
-#if defined(__AVX512F__) || defined(__AVX__)
+#if defined(__AVX512F__) || defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
 namespace asterflow {
+namespace {
 
 #if defined(__AVX512F__)
 constexpr int pack_bytes = 64;
-#elif defined(__AVX__)
+#elif defined(__AVX2__)
 constexpr int pack_bytes = 32;
 #else
 constexpr int pack_bytes = 16;
@@ -53,21 +53,37 @@ inline Pack<Real> broadcast(Real s) {
   return Pack<Real>{} + s;
 }
 
-// 1 / sqrt(x): the hardware estimate improved by `steps` of Newton's method (14 bits, doubled by each step).
+inline int smaller(int a, int b) { return a < b ? a : b; }
+inline long smaller(long a, long b) { return a < b ? a : b; }
+
+// 1 / sqrt(x): the hardware estimate improved by at least `steps` of Newton's method, each of which doubles the
+// 14 digits (AVX-512) or 12 (AVX2, only float; there one step is always taken). In double without AVX-512 exact:
+// an estimate from float would not cover small distances.
 template <class Real, int steps>
 inline Pack<Real> reciprocal_square_root(Pack<Real> x) {
-  Pack<Real> y;
 #if defined(__AVX512F__)
+  Pack<Real> y;
   if constexpr (sizeof(Real) == 8)
-    y = (Pack<Real>)_mm512_rsqrt14_pd((__m512d)x);
+    y = (Pack<Real>)_mm512_maskz_rsqrt14_pd(0xff, (__m512d)x);
   else
-    y = (Pack<Real>)_mm512_rsqrt14_ps((__m512)x);
+    y = (Pack<Real>)_mm512_maskz_rsqrt14_ps(0xffff, (__m512)x);
   Pack<Real> const half = Real(0.5) * x;
   for (int i = 0; i < steps; ++i) y = y * (Real(1.5) - half * y * y);
-#else
-  for (int i = 0; i < lanes<Real>; ++i) y[i] = Real(1) / std::sqrt(x[i]);
-#endif
   return y;
+#elif defined(__AVX2__)
+  if constexpr (sizeof(Real) == 8) {
+    return Real(1) / (Pack<Real>)_mm256_sqrt_pd((__m256d)x);
+  } else {
+    Pack<Real> y = (Pack<Real>)_mm256_rsqrt_ps((__m256)x);
+    Pack<Real> const half = Real(0.5) * x;
+    for (int i = 0; i < (steps > 1 ? steps : 1); ++i) y = y * (Real(1.5) - half * y * y);
+    return y;
+  }
+#else
+  Pack<Real> y{};
+  for (int i = 0; i < lanes<Real>; ++i) y[i] = Real(1) / std::sqrt(x[i]);
+  return y;
+#endif
 }
 
 // Transposes a square of lanes x lanes numbers: row i of the result is column i of the input.
@@ -81,4 +97,5 @@ inline void transpose(Pack<Real>* rows) {
   std::memcpy(rows, out, sizeof out);
 }
 
+}  // namespace
 }  // namespace asterflow

@@ -1,4 +1,3 @@
-#pragma once
 // The pair kernels in Fourier space: velocity of a plane wave of strengths with wave vector k, divided by
 // s = (filter / k^4). From the derivatives of the biharmonic function in fast_split.hpp, grad -> i k:
 //   Stokeslet  k^2 f - k (k.f)
@@ -7,6 +6,7 @@
 // P is a vector type; strengths and velocities are (real, imaginary) arrays.
 
 namespace asterflow {
+namespace {
 
 struct StokesletSymbol {
   static constexpr int components = 3;
@@ -61,4 +61,5 @@ struct StressletSymbol {
   }
 };
 
+}  // namespace
 }  // namespace asterflow

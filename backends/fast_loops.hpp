@@ -1,0 +1,139 @@
+#pragma once
+// The inner loops of the fast summation, seen by the rest of the program as plain functions. Each instruction
+// set is compiled in its own file with its own flags (fast_loops_portable.cpp, _avx2.cpp, _avx512.cpp) and chosen at
+// run time. The views hold numbers and pointers only: no code of this header may be shared between those files.
+
+#include <cstdint>
+
+namespace asterflow {
+
+enum class FastKernel { stokeslet, stresslet, rotlet };
+
+// A one-dimensional Fourier transform, see fast_fourier.hpp.
+template <class Real>
+struct LineView {
+  int length = 0, n_radix = 0;
+  int const* radices = nullptr;
+  Real const* twiddles = nullptr;
+};
+
+// A grid window, see fast_grid.hpp.
+template <class Real>
+struct WindowView {
+  int width = 0, padded = 0, degree = 0;
+  Real const* coefficients = nullptr;  // [2, degree + 1, padded]: of the weights, of their slopes per node
+};
+
+// Points of a patch by grid tile: indices index[begin[tile]] ... index[begin[tile + 1]].
+struct TileView {
+  std::uint32_t const* index = nullptr;
+  long const* begin = nullptr;
+};
+
+// A patch, see fast_patch.hpp. Grids of velocity are [z, y, 3, x] over target_low ... target_high, rows of
+// `velocity_row` numbers; the spectrum is [component, z, kx, 2, y], rows of `spectrum_row` numbers.
+template <class Real>
+struct PatchView {
+  int nodes[3];
+  double corner[3], to_nodes;  // a window at x begins at node floor((x - corner) to_nodes) of the endless grid
+  double scale;
+  int tile_y, tile_z, tiles_y, tiles_z;
+  int target_low[3], target_high[3];
+  long velocity_row, spectrum_row;
+  TileView sources, targets;
+  int modes[3];
+  int symbol_stride;
+  double band;
+  Real const* symbol;
+  LineView<Real> lines[3];
+};
+
+// The polynomials of the local part for one level's cutoff.
+template <class Real>
+struct NearLevel {
+  static constexpr int max_terms = 32;
+  Real cutoff2, u_scale;  // u = u_scale r^2 - 1
+  Real a[max_terms], b[max_terms];
+};
+
+// Sources base + list[i] act at the cutoff of `level`, up to position `end` of the list.
+struct NearSegment {
+  std::uint32_t base, end;
+  std::int32_t level;
+};
+
+// One vector of targets, and its segments up to segment_end.
+struct NearGroup {
+  long target;
+  int n_target;
+  std::uint32_t segment_end, close_end;
+};
+
+// The local part at the targets of one leaf.
+template <class Real>
+struct NearWork {
+  FastKernel kernel;
+  int terms, refinement_steps;
+  NearLevel<Real> const* levels;
+  Real const* records;  // [source, record]: coordinates (float: high and low parts), strength, normal
+  int record;
+  double const* targets;  // [target, 3]
+  NearGroup const* groups;
+  long n_group;
+  NearSegment const* segments;
+  std::uint16_t const* list;
+  double velocity_scale, gradient_scale;
+};
+
+// Which sources may lie within `reach` of a group of targets, all in normalised float coordinates.
+struct NearQuery {
+  static constexpr int max_target = 16;
+  float const* sources[3];
+  float low[3], high[3];  // box of the targets
+  float targets[3][max_target];
+  int n_target;
+  float reach;
+};
+
+template <class Real>
+struct FastLoops {
+  int lanes = 0;  // numbers in a vector register
+
+  int tile_y = 0, tile_z = 0;  // nodes of one tile of the grid
+
+  // One tile of the grid: spreads strengths [source, components] and transforms the rows along x.
+  // points [n, 3] normalised. scratch: forward_scratch numbers, aligned to 64 bytes.
+  void (*forward)(WindowView<Real> const&, PatchView<Real> const&, int components, long tile, double const* points,
+                  Real const* strengths, Real* spectrum, Real* scratch) = nullptr;
+  long (*forward_scratch)(WindowView<Real> const&, PatchView<Real> const&, int components) = nullptr;
+
+  // Transforms along z of one line of modes; the middle: along y, multiplication by the symbol, back along y.
+  void (*z_sweep)(PatchView<Real> const&, int component, int kx, bool inverse, Real* spectrum, Real* scratch) = nullptr;
+  void (*y_sweep)(PatchView<Real> const&, FastKernel kernel, int kz, Real* spectrum, Real* scratch) = nullptr;
+
+  // Back along x for one plane z, into the velocity's grid.
+  void (*x_inverse)(PatchView<Real> const&, int z, Real const* spectrum, Real* grid, Real* scratch) = nullptr;
+  long (*sweep_scratch)(PatchView<Real> const&) = nullptr;
+
+  // velocity [n, 3] += patch.scale * interpolated grid at the targets of one tile; likewise
+  // gradient [n, 3, 3] (d velocity_i / d x_j in units of the root's side) unless null.
+  void (*interpolate)(WindowView<Real> const&, PatchView<Real> const&, long tile, double const* points, Real const* grid,
+                      double* velocity, double* gradient) = nullptr;
+
+  // velocity [n, 3] += local part; likewise gradient [n, 3, 3] unless null.
+  void (*add_near)(NearWork<Real> const&, double* velocity, double* gradient) = nullptr;
+
+  // Writes s - base for the sources s in begin ... end - 1 that the query finds; returns their number. `found`
+  // has room for end - begin + 16.
+  long (*list_near)(NearQuery const&, long begin, long end, long base, std::uint16_t* found) = nullptr;
+};
+
+// Call the loops only on a processor that has the instructions.
+template <class Real>
+FastLoops<Real> fast_loops_portable();
+template <class Real>
+FastLoops<Real> fast_loops_avx2();
+template <class Real>
+FastLoops<Real> fast_loops_avx512();
+
+}  // namespace asterflow

@@ -1,0 +1,26 @@
+// The inner loops of the fast summation for the instruction set the including file is compiled for. Everything
+// is in unnamed namespaces, so that no code compiled for one instruction set can be linked into another.
+
+#include "backends/fast_loops.hpp"
+#include "kernels/dual.hpp"
+
+#include "backends/fast_pack.inl"
+
+#include "backends/fast_fourier.inl"
+#include "backends/fast_grid.inl"
+
+#include "backends/fast_convolution.inl"
+#include "backends/fast_near.inl"
+
+namespace asterflow {
+namespace {
+
+template <class Real>
+FastLoops<Real> fast_loops() {
+  constexpr int tile_y = lanes<Real> > 8 ? 2 * lanes<Real> : 16;
+  return {lanes<Real>, tile_y, 16, forward<Real>, forward_scratch<Real>, z_sweep<Real>, y_sweep<Real>,
+          x_inverse<Real>, sweep_scratch<Real>, interpolate<Real>, add_near<Real>, list_near};
+}
+
+}  // namespace
+}  // namespace asterflow

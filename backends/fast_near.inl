@@ -1,0 +1,202 @@
+// The near field's loops: targets lie in vector lanes, sources are broadcast from their records.
+
+#include "backends/fast_near_kernels.inl"
+
+namespace asterflow {
+namespace {
+
+template <class Real>
+struct NearLoop {
+  using P = Pack<Real>;
+  static constexpr int W = lanes<Real>;
+  static constexpr int offset = sizeof(Real) == 4 ? 6 : 3;  // of the strength in a record
+
+  struct Targets {
+    P x[3], low[3];  // coordinates; what float leaves of them
+
+    Targets(double const* targets, NearGroup const& group) {
+      for (int d = 0; d < 3; ++d)
+        for (int i = 0; i < W; ++i) {
+          double const at = targets[3 * (group.target + smaller(i, group.n_target - 1)) + d];
+          x[d][i] = static_cast<Real>(at);
+          low[d][i] = static_cast<Real>(at - static_cast<Real>(at));
+        }
+    }
+    void minus(Real const* record, P (&r)[3]) const {
+      for (int d = 0; d < 3; ++d) {
+        r[d] = x[d] - record[d];
+        if constexpr (sizeof(Real) == 4) r[d] += low[d] - record[3 + d];
+      }
+    }
+  };
+
+  static P inverse_distance(P r2, int refinement_steps) {
+    P inverse = reciprocal_square_root<Real, sizeof(Real) == 4 ? 0 : 1>(r2);
+    if (refinement_steps > 0) inverse = inverse * (Real(1.5) - Real(0.5) * r2 * inverse * inverse);
+    return r2 > P{} ? inverse : P{};
+  }
+
+  // Adds u [3] of one group to velocity.
+  static void add_to(double* velocity, NearGroup const& group, double scale, P const (&u)[3]) {
+    for (int i = 0; i < group.n_target; ++i)
+      for (int d = 0; d < 3; ++d) velocity[3 * (group.target + i) + d] += scale * static_cast<double>(u[d][i]);
+  }
+
+  template <class Kernel, int terms>
+  static void add(NearWork<Real> const& work, double* velocity) {
+    long source = 0, segment = 0;
+    for (long g = 0; g < work.n_group; ++g) {
+      NearGroup const& group = work.groups[g];
+      Targets const targets(work.targets, group);
+      P u[3] = {P{}, P{}, P{}};
+      for (; segment < group.segment_end; ++segment) {
+        NearSegment const& piece = work.segments[segment];
+        NearLevel<Real> const& level = work.levels[piece.level];
+        Real const* const records = work.records + static_cast<long>(piece.base) * work.record;
+        Real a[terms], b[terms];
+        for (int k = 0; k < terms; ++k) a[k] = level.a[k], b[k] = level.b[k];
+        P const cutoff2 = broadcast(level.cutoff2);
+        for (; source < piece.end; ++source) {
+          Real const* const record = records + work.list[source] * static_cast<long>(work.record);
+          P r[3];
+          targets.minus(record, r);
+          P const r2 = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+          P const inverse = inverse_distance(r2, work.refinement_steps);
+          P const w = r2 * level.u_scale - Real(1);
+          P pa = broadcast(a[terms - 1]), pb = broadcast(b[terms - 1]);
+          for (int k = terms - 2; k >= 0; --k) {
+            pa = pa * w + a[k];
+            pb = pb * w + b[k];
+          }
+          auto const inside = [&](P const& x) { return r2 < cutoff2 ? x : P{}; };
+          Kernel::add(r, inverse, pa, pb, inside, record + offset, u);
+        }
+      }
+      add_to(velocity, group, work.velocity_scale, u);
+    }
+  }
+
+  // A polynomial and its derivative, as a number that depends on the target through w.
+  static Dual<P> polynomial(Real const* c, int terms, P w, P const (&slope)[3]) {
+    P value = broadcast(c[terms - 1]), derivative{};
+    for (int k = terms - 2; k >= 0; --k) {
+      derivative = derivative * w + value;
+      value = value * w + c[k];
+    }
+    return {value, derivative * slope[0], derivative * slope[1], derivative * slope[2]};
+  }
+
+  // Velocity and gradient.
+  template <class Kernel>
+  static void add_gradient(NearWork<Real> const& work, double* velocity, double* gradient) {
+    using D = Dual<P>;
+    long source = 0, segment = 0;
+    for (long g = 0; g < work.n_group; ++g) {
+      NearGroup const& group = work.groups[g];
+      Targets const targets(work.targets, group);
+      D u[3];
+      for (; segment < group.segment_end; ++segment) {
+        NearSegment const& piece = work.segments[segment];
+        NearLevel<Real> const& level = work.levels[piece.level];
+        for (; source < piece.end; ++source) {
+          Real const* const record = work.records + (piece.base + work.list[source]) * static_cast<long>(work.record);
+          P r[3];
+          targets.minus(record, r);
+          P const r2 = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+          P const s = inverse_distance(r2, 1), one = broadcast(Real(1));
+          P const slope[3] = {r[0] * (2 * level.u_scale), r[1] * (2 * level.u_scale), r[2] * (2 * level.u_scale)};
+          P const w = r2 * level.u_scale - Real(1);
+          D const x[3] = {{r[0], one, P{}, P{}}, {r[1], P{}, one, P{}}, {r[2], P{}, P{}, one}};
+          D const inverse = differentiable_inverse(Vec3<P>{r[0], r[1], r[2]}, s);
+          auto const inside = [&](D const& n) {
+            auto const keep = [&](P const& p) { return r2 < broadcast(level.cutoff2) ? p : P{}; };
+            return D{keep(n.value), keep(n.slope[0]), keep(n.slope[1]), keep(n.slope[2])};
+          };
+          D strength[6];
+          for (int d = 0; d < (work.kernel == FastKernel::stresslet ? 6 : 3); ++d)
+            strength[d] = broadcast(record[offset + d]);
+          Kernel::add(x, inverse, polynomial(level.a, work.terms, w, slope),
+                      polynomial(level.b, work.terms, w, slope), inside, strength, u);
+        }
+      }
+      P const values[3] = {u[0].value, u[1].value, u[2].value};
+      add_to(velocity, group, work.velocity_scale, values);
+      for (int i = 0; i < group.n_target; ++i)
+        for (int d = 0; d < 9; ++d)
+          gradient[9 * (group.target + i) + d] += work.gradient_scale * static_cast<double>(u[d / 3].slope[d % 3][i]);
+    }
+  }
+
+  template <class Kernel>
+  static void add_of(NearWork<Real> const& work, double* velocity, double* gradient) {
+    if (gradient) return add_gradient<Kernel>(work, velocity, gradient);
+    switch (work.terms) {
+      case 4: return add<Kernel, 4>(work, velocity);
+      case 6: return add<Kernel, 6>(work, velocity);
+      case 8: return add<Kernel, 8>(work, velocity);
+      case 10: return add<Kernel, 10>(work, velocity);
+      case 12: return add<Kernel, 12>(work, velocity);
+      case 14: return add<Kernel, 14>(work, velocity);
+      case 16: return add<Kernel, 16>(work, velocity);
+      case 20: return add<Kernel, 20>(work, velocity);
+      case 24: return add<Kernel, 24>(work, velocity);
+      case 28: return add<Kernel, 28>(work, velocity);
+      default: return add<Kernel, 32>(work, velocity);
+    }
+  }
+};
+
+template <class Real>
+void add_near(NearWork<Real> const& work, double* velocity, double* gradient) {
+  using Loop = NearLoop<Real>;
+  if (work.kernel == FastKernel::stokeslet) return Loop::template add_of<NearStokeslet>(work, velocity, gradient);
+  if (work.kernel == FastKernel::rotlet) return Loop::template add_of<NearRotlet>(work, velocity, gradient);
+  Loop::template add_of<NearStresslet>(work, velocity, gradient);
+}
+
+// One bit per lane: whether it is below the limit.
+inline unsigned lanes_below(Pack<float> x, float limit) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_ps_mask((__m512)x, _mm512_set1_ps(limit), _CMP_LT_OQ);
+#elif defined(__AVX2__)
+  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps((__m256)x, _mm256_set1_ps(limit), _CMP_LT_OQ)));
+#else
+  unsigned bits = 0;
+  for (int i = 0; i < lanes<float>; ++i) bits |= unsigned(x[i] < limit) << i;
+  return bits;
+#endif
+}
+
+// First against the box of the targets, then against each of them.
+inline long list_near(NearQuery const& query, long begin, long end, long base, std::uint16_t* found) {
+  using F = Pack<float>;
+  constexpr int W = lanes<float>;
+  float const reach2 = query.reach * query.reach;
+  long n_found = 0;
+  for (long s = begin; s < end; s += W) {
+    F x[3], r2{};
+    for (int d = 0; d < 3; ++d) {
+      x[d] = load(query.sources[d] + s);
+      F const below = query.low[d] - x[d], above = x[d] - query.high[d], zero{};
+      F const beyond = below > zero ? below : above > zero ? above : zero;
+      r2 += beyond * beyond;
+    }
+    if (lanes_below(r2, reach2) == 0) continue;
+    F least = r2 + 1e30f;
+    for (int t = 0; t < query.n_target; ++t) {
+      F distance2{};
+      for (int d = 0; d < 3; ++d) {
+        F const r = x[d] - query.targets[d][t];
+        distance2 += r * r;
+      }
+      least = distance2 < least ? distance2 : least;
+    }
+    unsigned hits = lanes_below(least, reach2);
+    if (end - s < W) hits &= (1u << (end - s)) - 1u;
+    for (; hits != 0; hits &= hits - 1) found[n_found++] = static_cast<std::uint16_t>(s + __builtin_ctz(hits) - base);
+  }
+  return n_found;
+}
+
+}  // namespace
+}  // namespace asterflow

@@ -1,0 +1,50 @@
+// The local part of each kernel for one pair, or a vector of pairs: see fast_split.hpp for the formulas, here
+// without 1 / 8 pi. a, b: the polynomials A, B; `inverse`: 1 / r; what lies outside the cutoff is left out by
+// the caller. `Number` is a number, a vector or a Dual of them; source: strength, then normal.
+
+namespace asterflow {
+namespace {
+
+struct NearStokeslet {
+  static constexpr int powers = 1;  // A scales as 1 / cutoff, B as 1 / cutoff^3
+  template <class Number, class Inside, class Real>
+  static void add(Number const (&r)[3], Number const& inverse, Number const& a, Number const& b, Inside const& inside,
+                  Real const* f, Number (&u)[3]) {
+    Number const first = inside(inverse - a);
+    Number const second = inside(inverse * inverse * inverse - b);
+    Number const along = second * (r[0] * f[0] + r[1] * f[1] + r[2] * f[2]);
+    for (int d = 0; d < 3; ++d) u[d] += first * f[d] + along * r[d];
+  }
+};
+
+struct NearRotlet {
+  static constexpr int powers = 1;
+  template <class Number, class Inside, class Real>
+  static void add(Number const (&r)[3], Number const& inverse, Number const&, Number const& b, Inside const& inside,
+                  Real const* t, Number (&u)[3]) {
+    Number const s = inside(inverse * inverse * inverse - b);
+    u[0] += s * (r[2] * t[1] - r[1] * t[2]);
+    u[1] += s * (r[0] * t[2] - r[2] * t[0]);
+    u[2] += s * (r[1] * t[0] - r[0] * t[1]);
+  }
+};
+
+struct NearStresslet {
+  static constexpr int powers = 3;  // A scales as 1 / cutoff^3, B as 1 / cutoff^5
+  template <class Number, class Inside, class Real>
+  static void add(Number const (&r)[3], Number const& inverse, Number const& a, Number const& b, Inside const& inside,
+                  Real const* q, Number (&u)[3]) {
+    Real const* n = q + 3;
+    Number const first = inside(-a);
+    Number const rq = r[0] * q[0] + r[1] * q[1] + r[2] * q[2], rn = r[0] * n[0] + r[1] * n[1] + r[2] * n[2];
+    // The fifth power of 1 / r alone would overflow in float.
+    Number const singular = inverse * inverse * inverse * (rq * inverse) * (rn * inverse);
+    Number const second = inside((singular - b * rq * rn) * -6.0f);
+    Number const along = second + first * (q[0] * n[0] + q[1] * n[1] + q[2] * n[2]);
+    Number const by_q = first * rn, by_n = first * rq;
+    for (int d = 0; d < 3; ++d) u[d] += along * r[d] + by_q * q[d] + by_n * n[d];
+  }
+};
+
+}  // namespace
+}  // namespace asterflow
