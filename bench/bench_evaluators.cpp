@@ -1,12 +1,14 @@
 // Time and error of pair sums by every backend asked for. One JSON record per line on standard output:
 // set-up and execute seconds (wall and CPU over all threads, best of the repetitions), relative L2 error on
-// up to 2000 targets against the reference, bytes held.
+// up to 2000 random targets against the reference, bytes held.
 
+#include "bench/cpu_time.hpp"
 #include "bench/point_sets.hpp"
 
 #include "backends/evaluator.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/random.hpp"
 #include "base/timer.hpp"
 
 #include <CLI/CLI.hpp>
@@ -15,13 +17,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 
 using namespace asterflow;
 
 namespace {
-
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Choice {
   std::vector<std::string> backends{"fast"}, kernels{"stokeslet"}, distributions{"uniform"};
@@ -39,9 +38,10 @@ Problem make_problem(std::string const& kernel, std::string const& distribution,
 }
 
 double achieved_error(std::string const& kernel, Problem const& problem, PointArray const& velocity) {
-  std::size_t const n = problem.points.size(), stride = std::max<std::size_t>(1, n / 2000);
+  std::size_t const n = problem.points.size(), n_target = std::min<std::size_t>(n, 2000);
   PointArray targets, some;
-  for (std::size_t i = 0; i < n; i += stride) {
+  for (std::size_t k = 0; k < n_target; ++k) {
+    auto const i = n <= n_target ? k : static_cast<std::size_t>(uniform_random(11, k, 0, 0) * static_cast<double>(n));
     targets.push_back(problem.points[i]);
     some.push_back(velocity[i]);
   }
@@ -73,9 +73,9 @@ void measure(Choice const& choice, std::string const& backend, std::string const
   }
   fmt::print("{{\"backend\": \"{}\", \"used\": \"{}\", \"kernel\": \"{}\", \"distribution\": \"{}\", \"n\": {}, "
              "\"accuracy\": {:.1e}, \"error\": {:.2e}, \"set_up_seconds\": {:.4g}, \"set_up_cpu_seconds\": {:.4g}, "
-             "\"execute_seconds\": {:.4g}, \"execute_cpu_seconds\": {:.4g}, \"bytes\": {}, \"threads\": {}}}\n",
+             "\"execute_seconds\": {:.4g}, \"execute_cpu_seconds\": {:.4g}, \"bytes\": {}, \"threads\": {}, \"commit\": \"{}\"}}\n",
              backend, evaluator->backend(), kernel, distribution, problem.points.size(), accuracy,
-             achieved_error(kernel, problem, velocity), set_up, set_up_cpu, wall, cpu, evaluator->memory(), thread_count());
+             achieved_error(kernel, problem, velocity), set_up, set_up_cpu, wall, cpu, evaluator->memory(), thread_count(), ASTERFLOW_COMMIT);
   std::fflush(stdout);
 }
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Pictures of bench_evaluators: time against number of points, error against time.
+"""Pictures of what bench_evaluators measured: time against the number of points, and error against time.
 
-usage: plot_evaluators.py RECORDS.jsonl PICTURE.png
+usage: bench_evaluators ... > sums.jsonl; plot_evaluators.py sums.jsonl sums.png
 """
-import collections
+
 import json
 import sys
 
@@ -13,30 +13,58 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 
-def main(records_file, picture):
-    with open(records_file) as lines:
-        records = [json.loads(line) for line in lines if line.startswith("{")]
-    figure, (by_count, by_time) = plt.subplots(1, 2, figsize=(11, 4.5))
-    curves = collections.defaultdict(list)
-    clouds = collections.defaultdict(list)
-    for r in records:
-        name = f'{r["backend"]} {r["kernel"]} {r["distribution"]}'
-        curves[f'{name} {r["accuracy"]:.0e}'].append((r["n"], r["execute_cpu_seconds"]))
-        clouds[f'{name} n = {r["n"]}'].append((r["execute_cpu_seconds"], r["error"]))
-    for label, curve in curves.items():
-        by_count.loglog(*zip(*sorted(curve)), "o-", label=label)
-    for label, cloud in clouds.items():
-        by_time.loglog(*zip(*sorted(cloud)), "o-", label=label)
-    by_count.set(xlabel="points", ylabel="CPU seconds per sum")
-    by_time.set(xlabel="CPU seconds per sum", ylabel="relative L2 error")
-    for axes in (by_count, by_time):
-        axes.legend(fontsize=6)
-        axes.grid(alpha=0.3)
+def read(path):
+    with open(path) as lines:
+        return [json.loads(line) for line in lines if line.startswith("{")]
+
+
+def groups(records, *keys):
+    found = {}
+    for record in records:
+        found.setdefault(tuple(record[key] for key in keys), []).append(record)
+    return found
+
+
+def plot_time(axes, records):
+    for (backend, accuracy), group in sorted(groups(records, "backend", "accuracy").items()):
+        group.sort(key=lambda record: record["n"])
+        axes.loglog(
+            [record["n"] for record in group],
+            [record["execute_cpu_seconds"] / record["n"] * 1e6 for record in group],
+            "o-" if backend == "fast" else "x--",
+            label=f"{backend} {accuracy:.0e}",
+        )
+    axes.set_xlabel("points")
+    axes.set_ylabel("CPU microseconds per point")
+
+
+def plot_error(axes, records):
+    largest = max(record["n"] for record in records)
+    for (backend,), group in sorted(groups([r for r in records if r["n"] == largest], "backend").items()):
+        axes.loglog(
+            [record["execute_cpu_seconds"] for record in group],
+            [record["error"] for record in group],
+            "o" if backend == "fast" else "x",
+            label=backend,
+        )
+    axes.set_xlabel(f"CPU seconds, {largest:.0e} points")
+    axes.set_ylabel("relative error")
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    cases = groups(read(sys.argv[1]), "kernel", "distribution")
+    figure, axes = plt.subplots(len(cases), 2, figsize=(10, 3.6 * len(cases)), squeeze=False)
+    for row, ((kernel, distribution), records) in zip(axes, sorted(cases.items())):
+        plot_time(row[0], records)
+        plot_error(row[1], records)
+        row[0].set_title(f"{kernel}, {distribution}")
+        row[0].legend(fontsize=6)
+        row[1].legend(fontsize=6)
     figure.tight_layout()
-    figure.savefig(picture, dpi=150)
+    figure.savefig(sys.argv[2], dpi=120)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    main(*sys.argv[1:])
+    main()

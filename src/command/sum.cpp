@@ -26,6 +26,7 @@ struct SumOptions {
   std::string backend = "auto";
   double accuracy = 1e-6;
   double viscosity = 1.0;
+  bool has_gradient = false;
   bool measures_error = false;
   int repeat = 1;
 };
@@ -75,7 +76,7 @@ void check_output(SumOptions const& options) {
 void sum(SumOptions const& options) {
   bool needs_normals = false;
   with_kernel(options.kernel, [&](auto kernel) { needs_normals = kernel.has_normal; });
-  auto const evaluator = make_evaluator(options.kernel, {options.backend, options.accuracy});
+  auto const evaluator = make_evaluator(options.kernel, {options.backend, options.accuracy, options.has_gradient});
   check_output(options);
   PointsFile points = read_points_file(options.input, needs_normals);
   absorb_normal_lengths(points);
@@ -93,9 +94,12 @@ void sum(SumOptions const& options) {
   }
   std::optional<double> error;
   if (options.measures_error) error = error_against_reference(options, points, velocity);
+  PointArray gradient(options.has_gradient ? 3 * points.targets.size() : 0);
+  if (options.has_gradient) evaluator->add_gradient(points.strengths, gradient);
   if (!needs_normals)  // a double layer's density is a velocity and carries no viscosity
-    for (Vec3d& u : velocity) u *= 1.0 / options.viscosity;
-  write_velocity(options.output, velocity);
+    for (PointArray* flow : {&velocity, &gradient})
+      for (Vec3d& u : *flow) u *= 1.0 / options.viscosity;
+  write_velocity(options.output, velocity, gradient);
 
   double const pairs = double(points.sources.size()) * double(points.targets.size());
   fmt::print(
@@ -131,6 +135,7 @@ void add_sum_command(CLI::App& program, Action& chosen) {
   command->add_option("--viscosity", options->viscosity, "mu, positive")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command->add_flag("--gradient", options->has_gradient, "write d velocity_i / d x_j at the targets too: gradient [m,3,3]");
   command->add_flag("--reference-error", options->measures_error,
                     "measure the error against plain loops, on at most 2000 targets");
   command->add_option("--repeat", options->repeat, "evaluate so often and report the fastest")

@@ -43,11 +43,16 @@ PointsFile read_points_file(std::string const& path, bool needs_normals) {
   return points;
 }
 
-void write_velocity(std::string const& path, ConstPoints velocity) {
+void write_velocity(std::string const& path, ConstPoints velocity, ConstPoints gradient) {
   std::string const part = path + ".part";
   try {
     ArrayFile file(part, ArrayFile::Mode::create);
     file.write(NamedArray::of("velocity", velocity, "um/s"));
+    if (!gradient.empty()) {
+      NamedArray array = NamedArray::of("gradient", gradient, "1/s");
+      array.shape = {gradient.size() / 3, 3, 3};
+      file.write(array);
+    }
     file.close();
     std::filesystem::rename(part, path);
   } catch (std::exception const&) {

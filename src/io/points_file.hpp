@@ -18,7 +18,8 @@ struct PointsFile {
 // Throws SceneError when something is missing, of the wrong shape, or not finite.
 PointsFile read_points_file(std::string const& path, bool needs_normals);
 
-// Writes the dataset velocity [m, 3]. A file that was there is replaced once the new one is complete.
-void write_velocity(std::string const& path, ConstPoints velocity);
+// Writes the datasets velocity [m, 3] and, unless empty, gradient [m, 3, 3] (d velocity_i / d x_j; given as 3 m
+// points). A file that was there is replaced once the new one is complete.
+void write_velocity(std::string const& path, ConstPoints velocity, ConstPoints gradient);
 
 }  // namespace asterflow

@@ -1,0 +1,104 @@
+// The gradient of the velocity by every backend, against differences of velocities, the reference and
+// incompressibility.
+
+#include "backends/evaluator.hpp"
+#include "base/random.hpp"
+#include "kernels/list.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace asterflow;
+
+namespace {
+
+struct Points_with_strengths {
+  PointArray sources, targets, strengths, normals;
+};
+
+Vec3d random_vector(long i, int stream) {
+  return {uniform_random(3, i, stream, 0) - 0.5, uniform_random(3, i, stream, 1) - 0.5,
+          uniform_random(3, i, stream, 2) - 0.5};
+}
+
+Points_with_strengths random_points(std::string_view kernel, long n_source, long n_target) {
+  Points_with_strengths p;
+  for (long i = 0; i < n_source; ++i) {
+    p.sources.push_back(random_vector(i, 0));
+    p.strengths.push_back(random_vector(i, 1));
+    if (kernel == "stresslet") p.normals.push_back(normalized(random_vector(i, 2)));
+  }
+  for (long i = 0; i < n_target; ++i) p.targets.push_back(random_vector(i, 3));
+  return p;
+}
+
+PointArray gradient(std::string_view kernel, std::string const& backend, double accuracy, Points_with_strengths const& p) {
+  auto const evaluator = make_evaluator(kernel, {.backend = backend, .accuracy = accuracy, .gradient = true});
+  evaluator->set_points(p.sources, p.targets, p.normals);
+  PointArray result(3 * p.targets.size());
+  evaluator->add_gradient(p.strengths, result);
+  return result;
+}
+
+double relative_difference(PointArray const& a, PointArray const& exact) {
+  return (flat(ConstPoints(a)) - flat(ConstPoints(exact))).norm() / flat(ConstPoints(exact)).norm();
+}
+
+}  // namespace
+
+class Gradient : public testing::TestWithParam<std::string> {};
+
+TEST_P(Gradient, of_the_reference_is_the_limit_of_differences) {
+  Points_with_strengths p = random_points(GetParam(), 20, 10);
+  constexpr double step = 1e-5;
+  PointArray differences(3 * p.targets.size());
+  for (int axis = 0; axis < 3; ++axis)
+    for (double side : {-1.0, 1.0}) {
+      PointArray moved = p.targets, velocity(moved.size());
+      for (Vec3d& x : moved) x[axis] += side * step;
+      auto const reference = make_evaluator(GetParam(), {"reference", 1e-15});
+      reference->set_points(p.sources, moved, p.normals);
+      reference->add_velocity(p.strengths, velocity);
+      for (std::size_t i = 0; i < moved.size(); ++i)
+        for (int d = 0; d < 3; ++d) differences[3 * i + d][axis] += side * velocity[i][d] / (2.0 * step);
+    }
+  // Second order in the step over the distance of the closest pair, some 0.05.
+  EXPECT_LE(relative_difference(gradient(GetParam(), "reference", 1e-15, p), differences), 1e-5);
+}
+
+TEST_P(Gradient, has_no_trace) {
+  Points_with_strengths const p = random_points(GetParam(), 900, 300);
+  for (auto const& backend : backend_names()) {
+    PointArray const g = gradient(GetParam(), backend, 1e-6, p);
+    double trace2 = 0.0;
+    for (std::size_t i = 0; i < p.targets.size(); ++i) {
+      double const trace = g[3 * i].x + g[3 * i + 1].y + g[3 * i + 2].z;
+      trace2 += trace * trace;
+    }
+    EXPECT_LE(std::sqrt(trace2), 3e-6 * flat(ConstPoints(g)).norm()) << backend;
+  }
+}
+
+TEST_P(Gradient, honours_the_accuracy_with_every_backend) {
+  Points_with_strengths p = random_points(GetParam(), 1000, 700);
+  for (bool is_self : {false, true}) {
+    if (is_self) p.targets = p.sources;
+    PointArray const exact = gradient(GetParam(), "reference", 1e-15, p);
+    for (auto const& backend : backend_names())
+      for (double accuracy : {1e-3, 1e-6, 1e-9})
+        EXPECT_LE(relative_difference(gradient(GetParam(), backend, accuracy, p), exact), accuracy)
+            << backend << " at " << accuracy << (is_self ? " self" : "");
+  }
+}
+
+TEST_P(Gradient, skips_coincident_points) {
+  Points_with_strengths p = random_points(GetParam(), 1000, 0);
+  for (std::size_t i = 0; i < 500; ++i) p.sources[2 * i] = p.sources[2 * i + 1];
+  p.targets = p.sources;
+  PointArray const exact = gradient(GetParam(), "reference", 1e-15, p);
+  for (auto const& backend : backend_names())
+    for (double accuracy : {1e-3, 1e-6})
+      EXPECT_LE(relative_difference(gradient(GetParam(), backend, accuracy, p), exact), accuracy) << backend;
+}
+
+INSTANTIATE_TEST_SUITE_P(kernels, Gradient, testing::Values("stokeslet", "stresslet", "rotlet"),
+                         [](auto const& kernel) { return kernel.param; });
