@@ -1,6 +1,8 @@
 """asterflow sum: results against numpy, and every kind of bad input."""
 
 import json
+import os
+import resource
 import unittest
 
 import h5py
@@ -37,8 +39,8 @@ class Sum(CommandTest):
                 if array is not None:
                     file[name] = array
 
-    def sum(self, *options):
-        return self.expect_done("sum", "-i", self.input, "-o", self.output, *options)
+    def sum(self, *options, **how):
+        return self.expect_done("sum", "-i", self.input, "-o", self.output, *options, **how)
 
     def refused(self, *options, names=()):
         result = self.expect_refusal("sum", "-i", self.input, "-o", self.output, *options, names=names)
@@ -69,6 +71,30 @@ class Sum(CommandTest):
         self.write(normals=3 * self.points["normals"])
         self.sum("--kernel", "stresslet", "--accuracy", "1e-12", "--viscosity", "7")
         self.assertLess(np.linalg.norm(self.velocity() - 3 * plain), 1e-11 * np.linalg.norm(plain))
+
+    def test_writes_the_gradient_of_the_velocity(self):
+        self.write()
+        self.sum("--accuracy", "1e-9", "--gradient", "--viscosity", "2")
+        with h5py.File(self.output) as file:
+            gradient = file["gradient"][:]
+        step = 1e-5
+        for axis in range(3):
+            moved = [self.points["targets"] + side * step * np.eye(3)[axis] for side in (-1, 1)]
+            low, high = (stokeslet(self.points["sources"], x, self.points["strengths"], 2.0) for x in moved)
+            difference = (high - low) / (2 * step)
+            # second order in the step over the distance of the closest pair
+            self.assertLess(np.linalg.norm(gradient[:, :, axis] - difference), 1e-4 * np.linalg.norm(difference))
+
+    def test_does_not_depend_on_the_number_of_threads(self):
+        random = np.random.default_rng(2)
+        self.write(sources=random.random((5000, 3)), targets=None, strengths=random.standard_normal((5000, 3)))
+        for backend in ("direct", "fast"):
+            results = []
+            for threads in ("1", "2", "2"):
+                self.sum("--backend", backend, env=os.environ | {"OMP_NUM_THREADS": threads})
+                results.append(self.velocity())
+            np.testing.assert_array_equal(results[1], results[2])
+            np.testing.assert_allclose(results[0], results[1], rtol=0, atol=1e-13 * np.abs(results[0]).max())
 
     def test_prints_one_line_of_json(self):
         self.write()
@@ -141,6 +167,14 @@ class Sum(CommandTest):
         self.refused("--viscosity", "-1", names=["viscosity"])
         self.refused("--repeat", "0", names=["repeat"])
         self.refused("--magic", names=["--magic"])
+
+    def test_refuses_points_that_need_more_memory_than_there_is(self):
+        random = np.random.default_rng(3)
+        self.write(sources=random.random((400000, 3)), targets=None, strengths=np.ones((400000, 3)))
+        limit = 500 << 20  # bytes: enough to start the program and to read the points
+        self.expect_refusal("sum", "-i", self.input, "-o", self.output, "--backend", "fast", "--accuracy", "1e-9",
+                            names=["not enough memory"], env=os.environ | {"OMP_NUM_THREADS": "1"},
+                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
 
     def test_refuses_an_output_that_cannot_be_written(self):
         self.write()

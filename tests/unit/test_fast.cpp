@@ -90,6 +90,35 @@ TEST_P(FastSum, takes_targets_that_are_not_sources) {
   EXPECT_LE(error(GetParam(), 1e-6, c), 1e-6);
 }
 
+TEST_P(FastSum, honours_the_accuracy_at_far_targets_alone) {
+  for (long n_target : {1, 600}) {
+    Case c = make_case(GetParam(), "uniform", 2000);
+    c.targets.clear();
+    for (long i = 0; i < n_target; ++i) c.targets.push_back(300.0 * normalized(random_vector(i, 9)));
+    for (double accuracy : {1e-3, 1e-6}) EXPECT_LE(error(GetParam(), accuracy, c), accuracy) << n_target << " " << accuracy;
+  }
+}
+
+TEST_P(FastSum, honours_the_accuracy_where_strengths_cancel) {
+  // Every source has an opposite one close by: the flow is 1e3 times smaller than that of one sign.
+  Case c = make_case(GetParam(), "uniform", 2000);
+  for (std::size_t i = 0; i < 1000; ++i) {
+    c.sources[2 * i + 1] = c.sources[2 * i] + 1e-3 * random_vector(i, 5);
+    c.strengths[2 * i + 1] = -c.strengths[2 * i];
+    if (!c.normals.empty()) c.normals[2 * i + 1] = c.normals[2 * i];
+  }
+  c.targets.clear();
+  for (long i = 0; i < 1500; ++i) c.targets.push_back(random_vector(i, 9) + Vec3d{2.0, 0.0, 0.0});
+  for (double accuracy : {1e-3, 1e-6}) EXPECT_LE(error(GetParam(), accuracy, c), accuracy) << accuracy;
+}
+
+TEST_P(FastSum, takes_clusters_far_smaller_than_its_smallest_box) {
+  Case c = make_case(GetParam(), "uniform", 2000);
+  for (std::size_t i = 0; i < 1000; ++i) c.sources[i] = Vec3d{0.1, 0.2, 0.3} + 1e-9 * c.sources[i];
+  c.targets = c.sources;
+  for (double accuracy : {1e-3, 1e-6}) EXPECT_LE(error(GetParam(), accuracy, c), accuracy) << accuracy;
+}
+
 TEST_P(FastSum, of_one_point_or_many_at_one_place_is_zero) {
   for (long n : {1, 500}) {
     Case c = make_case(GetParam(), "uniform", n);
