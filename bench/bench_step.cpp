@@ -32,9 +32,10 @@ void run(std::string const& file, int n_step, std::vector<std::string> const& ov
     StepReport const r = simulation.step(1e9);
     fmt::print("{}\n  {{\"time\": {:.6g}, \"dt\": {:.4g}, \"iterations\": {}, \"inner_iterations\": {}, \"residual\": {:.3g}, "
                "\"rejected\": {}, \"error_um\": {:.3g}, \"seconds\": {:.4g}, \"seconds_prepare\": {:.4g}, "
-               "\"seconds_sums\": {:.4g}, \"seconds_rough_sums\": {:.4g}, \"seconds_surfaces\": {:.4g}}}",
+               "\"seconds_sums\": {:.4g}, \"seconds_surfaces\": {:.4g}, \"seconds_rough_sums\": {:.4g}, \"seconds_rough_surfaces\": {:.4g}}}",
                i == 0 ? "" : ",", r.time, r.dt, r.iterations, r.inner_iterations, r.residual, r.rejected, r.error,
-               r.seconds, r.prepare_seconds, r.sum_seconds, r.rough_sum_seconds, r.surface_seconds);
+               r.seconds, r.prepare_seconds, r.sum_seconds, r.surface_seconds, r.rough_sum_seconds,
+               r.rough_surface_seconds);
     std::fflush(stdout);
   }
   fmt::print("],\n \"threads\": {}, \"peak_memory_MB\": {:.0f}}}\n", thread_count(), peak_memory());

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace asterflow {
 namespace {
@@ -29,7 +30,8 @@ int shell_count(Shape const& shape, Side side, int order, double accuracy) {
 DirichletFlow::DirichletFlow(Surface surface, Side side, double accuracy)
     : surface_(std::make_unique<Surface const>(std::move(surface))), side_(side),
       n_shell_(shell_count(surface_->shape(), side, surface_->order(), accuracy)),
-      table_(surface_->grid(), n_shell_, InterpolationWindow::width_for(accuracy)) {
+      table_(surface_->grid(), n_shell_, InterpolationWindow::width_for(accuracy), 2.0),
+      rough_table_(surface_->grid(), n_shell_, InterpolationWindow::widths[0], 1.25) {
   ASTERFLOW_REQUIRE(surface_->grading().uniform());
   if (surface_->axisymmetric())
     operator_ = std::make_unique<AxisymmetricDirichlet>(*surface_, side, n_shell_, accuracy);
@@ -55,23 +57,33 @@ void DirichletFlow::plan(ConstPoints targets, Targets& result) const {
         throw NumericalError(fmt::format("target {} at ({}, {}, {}) um lies on the wrong side of a surface, scale {}", i,
                                          targets[i].x, targets[i].y, targets[i].z, at.rho));
       double const scale = std::min(1.0, side_ == Side::interior ? at.rho : 1.0 / at.rho);
-      double const psi = 2.0 * std::atan2(std::sqrt(1.0 - scale), std::sqrt(scale));
-      result.points_[i] = {table_.locate(psi, surface_->to_polar(at.direction)), side_ == Side::interior ? 1.0 : scale};
+      double const psi = 2.0 / std::numbers::pi * std::atan2(std::sqrt(1.0 - scale), std::sqrt(scale));
+      result.points_[i] = {ShellTable::locate(psi, surface_->to_polar(at.direction)), side_ == Side::interior ? 1.0 : scale};
     }
   });
 }
 
 void DirichletFlow::add_velocity(ConstPoints boundary_velocity, Targets const& targets, Points velocity) const {
+  add_interpolated(table_, values_, boundary_velocity, targets, velocity);
+}
+
+void DirichletFlow::add_rough_velocity(ConstPoints boundary_velocity, Targets const& targets, Points velocity) const {
+  add_interpolated(rough_table_, rough_values_, boundary_velocity, targets, velocity);
+}
+
+template <class Real>
+void DirichletFlow::add_interpolated(ShellTable const& table, ShellTable::Values<Real>& values,
+                                     ConstPoints boundary_velocity, Targets const& targets, Points velocity) const {
   ASTERFLOW_REQUIRE(targets.size() == velocity.size());
   operator_->shell_modes(boundary_velocity, modes_);
-  table_.fill(modes_, values_);
+  table.fill(modes_, values);
   constexpr long chunk = 256;
   auto const n = static_cast<long>(targets.size());
   parallel_for("DirichletFlow::interpolate", (n + chunk - 1) / chunk, [&](long block) {
     for (long i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
       Targets::Point const& point = targets.points_[i];
       double u[3];
-      table_.interpolate(values_, point.table, u);
+      table.interpolate(values, point.table, u);
       velocity[i] += point.factor * surface_->from_polar({u[0], u[1], u[2]});
     }
   });
@@ -97,7 +109,7 @@ Matrix6 DirichletFlow::resistance() const {
   return 0.5 * (result + result.transpose());
 }
 
-std::size_t DirichletFlow::memory() const { return operator_->memory() + table_.memory(); }
+std::size_t DirichletFlow::memory() const { return operator_->memory() + table_.memory() + rough_values_.memory(); }
 
 int default_order(Shape const& shape, double accuracy) {
   double const digits = std::clamp(-std::log10(accuracy), 2.0, 12.0);

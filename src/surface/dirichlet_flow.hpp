@@ -41,8 +41,10 @@ class DirichletFlow {
   Targets plan(ConstPoints targets) const;
   void plan(ConstPoints targets, Targets& result) const;  // reuses memory
 
-  // Calls on one object must not overlap: they share a work array.
+  // Calls on one object must not overlap: they share work arrays.
   void add_velocity(ConstPoints boundary_velocity, Targets const& targets, Points velocity) const;
+  // The same with a relative error below 1e-3, in single precision: for the inside of a preconditioner.
+  void add_rough_velocity(ConstPoints boundary_velocity, Targets const& targets, Points velocity) const;
 
   // Exterior: force (pN) and torque (pN um) about the origin of the shape's frame on the fluid, viscosity 1.
   Vector6 load(ConstPoints boundary_velocity) const;
@@ -51,13 +53,18 @@ class DirichletFlow {
   std::size_t memory() const;  // bytes
 
  private:
+  template <class Real>
+  void add_interpolated(ShellTable const& table, ShellTable::Values<Real>& values, ConstPoints boundary_velocity,
+                        Targets const& targets, Points velocity) const;
+
   std::unique_ptr<Surface const> surface_;  // the operator refers to it
   Side side_;
   int n_shell_;
-  ShellTable table_;
+  ShellTable table_, rough_table_;
   std::unique_ptr<ShellOperator const> operator_;
   mutable std::vector<ShellMode> modes_;
-  mutable ShellTable::Values values_;
+  mutable ShellTable::Values<double> values_;
+  mutable ShellTable::Values<float> rough_values_;
 };
 
 // Order whose nodes resolve the flow of objects about a third of the surface's size away to the relative accuracy.

@@ -10,7 +10,8 @@
 
 namespace asterflow {
 
-InterpolationWindow::InterpolationWindow(int width) : width_(width), beta_(2.30 * width) {
+InterpolationWindow::InterpolationWindow(int width, double oversampling)
+    : width_(width), beta_(0.976 * std::numbers::pi * (1.0 - 0.5 / oversampling) * width) {
   ASTERFLOW_REQUIRE(std::ranges::count(widths, width) == 1);
   int const n = width + 4;
   Eigen::MatrixXd powers(n, n), values(n, width);

@@ -1,8 +1,9 @@
 #pragma once
-// Interpolation of band-limited periodic functions from a twice oversampled equispaced grid by a compact window,
+// Interpolation of band-limited periodic functions from an oversampled equispaced grid by a compact window,
 //   f(x) = sum_j w(x - j) g_j,   w(x) = exp(beta (sqrt(1 - (2 x / W)^2) - 1)),  |x| <= W / 2,
-// where the grid values g are those of f with its Fourier coefficients divided by the window's transform.
-// Relative error below 10^(1.1 - W).  [Barnett, Magland & af Klinteberg 2019, SIAM J. Sci. Comput. 41]
+// where the grid values g are those of f with its Fourier coefficients divided by the window's transform. Relative error
+// about exp(-pi W sqrt(1 - 1/sigma)) at oversampling sigma; below 10^(1.1 - W) at sigma = 2.
+// [Barnett, Magland & af Klinteberg 2019, SIAM J. Sci. Comput. 41]
 
 #include <Eigen/Core>
 
@@ -12,8 +13,8 @@ class InterpolationWindow {
  public:
   static constexpr int widths[] = {6, 8, 10, 12, 14, 16};
 
-  explicit InterpolationWindow(int width);       // one of widths
-  static int width_for(double accuracy);         // relative accuracy of the interpolation
+  InterpolationWindow(int width, double oversampling);  // one of widths; above 1
+  static int width_for(double accuracy);                // relative accuracy of the interpolation at oversampling 2
 
   int width() const { return width_; }
   double transform(double cycles_per_node) const;  // int w(x) cos(2 pi k x) dx

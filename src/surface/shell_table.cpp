@@ -13,6 +13,7 @@ namespace {
 
 using Eigen::MatrixXd;
 constexpr double pi = std::numbers::pi;
+constexpr int max_lanes = 48;  // numbers that interpolation reads from the place of the first node of a circle
 
 // Values at `nodes` of functions cos(k x), k = first ... (even), or sin(k x) -> values divided by the window's transform
 // at x_i = pi (i - margin) / n, ghosts included.
@@ -28,6 +29,8 @@ MatrixXd upsampling(std::vector<double> const& nodes, bool odd, int n, int margi
   }
   return at_nodes.transpose().partialPivLu().solve(at_table.transpose()).transpose();
 }
+
+int cells(double oversampling, int n) { return static_cast<int>(std::ceil(oversampling * n)); }
 
 int even_fft_size(int least) {  // smallest even 2^a 3^b 5^c
   for (int n = least + least % 2;; n += 2) {
@@ -45,9 +48,10 @@ double shell_scale(int k, int n_shell) {
   return c * c;
 }
 
-ShellTable::ShellTable(SphereGrid const& grid, int n_shell, int window_width)
-    : n_ring_(grid.n_ring()), n_shell_(n_shell), window_(window_width), n_psi_(2 * n_shell), n_theta_(2 * n_ring_ + 2),
-      n_phi_(even_fft_size(4 * n_ring_)), margin_(window_width / 2), row_((n_phi_ + 2 * margin_ + 8) / 8 * 8),
+ShellTable::ShellTable(SphereGrid const& grid, int n_shell, int window_width, double oversampling)
+    : n_ring_(grid.n_ring()), n_shell_(n_shell), window_(window_width, oversampling),
+      n_psi_(cells(oversampling, n_shell)), n_theta_(cells(oversampling, n_ring_ + 1)),
+      n_phi_(even_fft_size(2 * cells(oversampling, n_ring_))), margin_(window_width / 2), row_(n_phi_ + 2 * margin_ + 1),
       transform_(n_phi_) {
   ASTERFLOW_REQUIRE(n_shell >= 2);
   std::vector<double> psi;
@@ -57,11 +61,10 @@ ShellTable::ShellTable(SphereGrid const& grid, int n_shell, int window_width)
   for (int m = 0; m < n_ring_; ++m) phi_correction_.push_back(1.0 / window_.transform(static_cast<double>(m) / n_phi_));
 }
 
-TablePoint ShellTable::locate(double psi, Vec3d d) const {
+TablePoint ShellTable::locate(double psi, Vec3d d) {
   double const sine = std::hypot(d.y, d.z), theta = std::atan2(sine, d.x);
   double const turns = sine > 0.0 ? std::atan2(d.z, d.y) / (2.0 * pi) : 0.0;
-  return {psi / pi * n_psi_, theta / pi * n_theta_, (turns - std::floor(turns)) * n_phi_,
-          sine > 0.0 ? d.y / sine : 1.0, sine > 0.0 ? d.z / sine : 0.0};
+  return {psi, theta / pi, turns - std::floor(turns), sine > 0.0 ? d.y / sine : 1.0, sine > 0.0 ? d.z / sine : 0.0};
 }
 
 std::size_t ShellTable::memory() const {
@@ -70,9 +73,10 @@ std::size_t ShellTable::memory() const {
 }
 
 // Upsampling is a tensor product: theta and psi by small matrices mode by mode, phi by a Fourier transform.
-void ShellTable::fill(std::vector<ShellMode> const& modes, Values& values) const {
+template <class Real>
+void ShellTable::fill(std::vector<ShellMode> const& modes, Values<Real>& values) const {
   ASTERFLOW_REQUIRE(static_cast<int>(modes.size()) == n_ring_);
-  values.velocity.resize(static_cast<std::size_t>(psi_up_.rows() * theta_up_[0].rows()) * 3 * row_);
+  values.velocity.resize(static_cast<std::size_t>(psi_up_.rows() * theta_up_[0].rows()) * 3 * row_ + max_lanes);
   values.meridian.resize(modes.size());
   parallel_for("ShellTable::fill_meridian", n_ring_,
                [&](long m) { fill_meridian(static_cast<int>(m), modes[m], values.meridian[m]); });
@@ -94,29 +98,36 @@ void ShellTable::fill_meridian(int m, ShellMode const& mode, MatrixXd& fine) con
     }
 }
 
-void ShellTable::fill_azimuth(long i_psi, Values& values) const {
+template <class Real>
+void ShellTable::fill_azimuth(long i_psi, Values<Real>& values) const {
   auto const n_psi = psi_up_.rows(), n_theta = theta_up_[0].rows();
-  std::vector<std::complex<double>> spectrum(n_phi_ / 2 + 1);
-  for (Eigen::Index j = 0; j < n_theta; ++j)
-    for (int c = 0; c < 3; ++c) {
-      auto const real_column = c * n_psi + i_psi, imaginary_column = (3 + c) * n_psi + i_psi;
-      for (int m = 0; m < n_ring_; ++m) {
-        double const re = values.meridian[m](j, real_column), im = values.meridian[m](j, imaginary_column);
-        spectrum[m] = c < 2 ? std::complex(re, im) : std::complex(-im, re);
-      }
-      std::fill(spectrum.begin() + n_ring_, spectrum.end(), 0.0);
-      double* const row = values.velocity.data() + ((i_psi * n_theta + j) * 3 + c) * row_;
-      transform_.synthesise(spectrum.data(), row + margin_);
-      for (int g = 0; g < margin_; ++g) row[g] = row[g + n_phi_];
-      for (int g = margin_ + n_phi_; g < row_; ++g) row[g] = row[g - n_phi_];
+  long const n_coefficient = n_phi_ / 2 + 1;
+  std::vector<std::complex<double>> spectra(n_theta * n_coefficient);  // the modes that are not set stay zero
+  std::vector<std::complex<double>> spectrum(n_coefficient);           // overwritten by the transform
+  std::vector<double> circle(n_phi_);
+  for (int c = 0; c < 3; ++c) {
+    for (int m = 0; m < n_ring_; ++m) {
+      double const* const re = values.meridian[m].col(c * n_psi + i_psi).data();
+      double const* const im = values.meridian[m].col((3 + c) * n_psi + i_psi).data();
+      for (Eigen::Index j = 0; j < n_theta; ++j)
+        spectra[j * n_coefficient + m] = c < 2 ? std::complex(re[j], im[j]) : std::complex(-im[j], re[j]);
     }
+    for (Eigen::Index j = 0; j < n_theta; ++j) {
+      std::copy_n(&spectra[j * n_coefficient], n_coefficient, spectrum.data());
+      transform_.synthesise(spectrum.data(), circle.data());
+      Real* const row = values.velocity.data() + (i_psi * n_theta + j) * 3 * row_ + c;
+      for (int k = 0; k < n_phi_; ++k) row[3 * (margin_ + k)] = static_cast<Real>(circle[k]);
+      for (int g = 0; g < margin_; ++g) row[3 * g] = row[3 * (g + n_phi_)];
+      for (int g = margin_ + n_phi_; g < row_; ++g) row[3 * g] = row[3 * (g - n_phi_)];
+    }
+  }
 }
 
-template <int width>
-void ShellTable::interpolate_with(Values const& values, TablePoint const& point, double velocity[3]) const {
+template <int width, class Real>
+void ShellTable::interpolate_with(Values<Real> const& values, TablePoint const& point, double velocity[3]) const {
   double weights[3][width];
   long first[3];
-  double const position[3] = {point.psi, point.theta, point.phi};
+  double const position[3] = {point.psi * n_psi_, point.theta * n_theta_, point.phi * n_phi_};
   auto const& coefficients = window_.coefficients();
   for (int d = 0; d < 3; ++d) {
     double const start = position[d] - 0.5 * width, node = std::ceil(start), t = 2.0 * (node - start) - 1.0;
@@ -126,24 +137,25 @@ void ShellTable::interpolate_with(Values const& values, TablePoint const& point,
     for (auto k = last - 1; k >= 0; --k)
       for (int i = 0; i < width; ++i) weights[d][i] = weights[d][i] * t + coefficients(k, i);
   }
-  double sums[3][width] = {};
+  constexpr int lanes = (3 * width + 7) / 8 * 8;  // whole vectors of (node, component); the rest weighs nothing
+  Real sums[lanes] = {};
   auto const n_theta = theta_up_[0].rows();
   for (int a = 0; a < width; ++a)
     for (int b = 0; b < width; ++b) {
-      double const w = weights[0][a] * weights[1][b];
-      double const* const row = values.velocity.data() + ((first[0] + a) * n_theta + first[1] + b) * 3 * row_ + first[2];
-      for (int c = 0; c < 3; ++c)
-        for (int i = 0; i < width; ++i) sums[c][i] += w * row[c * row_ + i];
+      Real const w = static_cast<Real>(weights[0][a] * weights[1][b]);
+      Real const* const row = values.velocity.data() + (((first[0] + a) * n_theta + first[1] + b) * row_ + first[2]) * 3;
+      for (int i = 0; i < lanes; ++i) sums[i] += w * row[i];
     }
   double u[3] = {};
-  for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < width; ++i) u[c] += weights[2][i] * sums[c][i];
+  for (int i = 0; i < width; ++i)
+    for (int c = 0; c < 3; ++c) u[c] += weights[2][i] * sums[3 * i + c];
   velocity[0] = u[0];
   velocity[1] = u[1] * point.cos_phi - u[2] * point.sin_phi;
   velocity[2] = u[1] * point.sin_phi + u[2] * point.cos_phi;
 }
 
-void ShellTable::interpolate(Values const& values, TablePoint const& point, double velocity[3]) const {
+template <class Real>
+void ShellTable::interpolate(Values<Real> const& values, TablePoint const& point, double velocity[3]) const {
   switch (window_.width()) {
     case 6: return interpolate_with<6>(values, point, velocity);
     case 8: return interpolate_with<8>(values, point, velocity);
@@ -153,5 +165,10 @@ void ShellTable::interpolate(Values const& values, TablePoint const& point, doub
     default: return interpolate_with<16>(values, point, velocity);
   }
 }
+
+template void ShellTable::fill(std::vector<ShellMode> const&, Values<double>&) const;
+template void ShellTable::fill(std::vector<ShellMode> const&, Values<float>&) const;
+template void ShellTable::interpolate(Values<double> const&, TablePoint const&, double[3]) const;
+template void ShellTable::interpolate(Values<float> const&, TablePoint const&, double[3]) const;
 
 }  // namespace asterflow

@@ -20,9 +20,9 @@ namespace asterflow {
 // at the end hold nothing of this mode.
 using ShellMode = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
-// Position of a target in units of table cells, and its frame.
+// Position of a target, for the tables of any resolution, and its frame.
 struct TablePoint {
-  double psi, theta, phi;  // cells
+  double psi, theta, phi;  // over pi, pi, 2 pi: each in [0, 1]
   double cos_phi, sin_phi;
 };
 
@@ -31,30 +31,38 @@ double shell_scale(int k, int n_shell);
 
 class ShellTable {
  public:
-  ShellTable(SphereGrid const& grid, int n_shell, int window_width);
+  // oversampling: cells of the table over those that resolve the field, in each direction.
+  ShellTable(SphereGrid const& grid, int n_shell, int window_width, double oversampling);
 
   int n_shell() const { return n_shell_; }
-  TablePoint locate(double psi, Vec3d direction) const;  // components of the direction along (e_1, e_2, e_3), any length
+  // psi over pi; components of the direction along (e_1, e_2, e_3), any length
+  static TablePoint locate(double psi, Vec3d direction);
 
+  // Numbers of type Real: double or float.
+  template <class Real>
   struct Values {
-    std::vector<double> velocity;           // [psi, theta, component, phi]
+    std::vector<Real> velocity;             // [psi, theta, phi, component]
     std::vector<Eigen::MatrixXd> meridian;  // work space: [mode] [theta, (part, component, psi)]
+    std::size_t memory() const { return sizeof(Real) * velocity.capacity(); }  // bytes
   };
-  void fill(std::vector<ShellMode> const& modes, Values& values) const;  // overwrites
+  template <class Real>
+  void fill(std::vector<ShellMode> const& modes, Values<Real>& values) const;  // overwrites
   // Components along (e_1, e_2, e_3).
-  void interpolate(Values const& values, TablePoint const& point, double velocity[3]) const;
-  std::size_t memory() const;  // bytes of one set of values
+  template <class Real>
+  void interpolate(Values<Real> const& values, TablePoint const& point, double velocity[3]) const;
+  std::size_t memory() const;  // bytes of one set of doubles
 
  private:
   void fill_meridian(int m, ShellMode const& mode, Eigen::MatrixXd& fine) const;
-  void fill_azimuth(long i_psi, Values& values) const;
-  template <int width>
-  void interpolate_with(Values const& values, TablePoint const& point, double velocity[3]) const;
+  template <class Real>
+  void fill_azimuth(long i_psi, Values<Real>& values) const;
+  template <int width, class Real>
+  void interpolate_with(Values<Real> const& values, TablePoint const& point, double velocity[3]) const;
 
   int n_ring_, n_shell_;
   InterpolationWindow window_;
   int n_psi_, n_theta_, n_phi_;         // cells along [0, pi], [0, pi], [0, 2 pi)
-  int margin_, row_;                    // ghost nodes on each side; doubles between rows of phi
+  int margin_, row_;                    // ghost nodes on each side; nodes of a circle of phi with its ghosts
   Eigen::MatrixXd psi_up_;              // [n_psi + 1 + 2 margin, n_shell]
   Eigen::MatrixXd theta_up_[2];         // [n_theta + 1 + 2 margin, n_ring], even and odd in theta
   std::vector<double> phi_correction_;  // [n_mode]

@@ -21,6 +21,14 @@ PointArray to_body_frame(RigidPose const& pose, ConstPoints points) {
   return local;
 }
 
+void add_flow(DirichletFlow const& flow, Exchange kind, ConstPoints wall_velocity, DirichletFlow::Targets const& targets,
+              Points velocity) {
+  if (kind == Exchange::rough)
+    flow.add_rough_velocity(wall_velocity, targets, velocity);
+  else
+    flow.add_velocity(wall_velocity, targets, velocity);
+}
+
 Vector6 rotated(Matrix3 const& rotation, Vector6 const& v) {
   Vector6 result;
   result << rotation * v.head<3>(), rotation * v.tail<3>();
@@ -64,7 +72,7 @@ void Radiation::set_geometry(FiberNodes const& fibers, std::vector<RigidPose> co
     if (!stokeslets_)
       stokeslets_ = make_evaluator(Stokeslet::name, {.backend = options_.evaluator, .accuracy = options_.accuracy});
     stokeslets_->set_points(fibers.positions, all);
-    if (options_.accuracy < 0.1 * rough_accuracy) {
+    if (options_.accuracy < 0.5 * rough_accuracy) {
       if (!rough_stokeslets_)
         rough_stokeslets_ = make_evaluator(Stokeslet::name, {.backend = options_.evaluator, .accuracy = rough_accuracy});
       rough_stokeslets_->set_points(fibers.positions, all);
@@ -99,10 +107,10 @@ PointArray Radiation::periphery_wall_velocity(ConstPoints incident) const {
 }
 
 // Sum over all nodes of all fibers, less each fiber's sum over its own nodes: a fiber's own flow is its local drag.
-void Radiation::add_fibers(ConstPoints force_density, Sums sums, Points received) {
+void Radiation::add_fibers(ConstPoints force_density, Exchange kind, Points received) {
   double const scale = 1.0 / options_.viscosity;
   for (std::size_t i = 0; i < n_fiber_nodes_; ++i) strengths_[i] = (scale * weights_[i]) * force_density[i];
-  bool const is_rough = sums == Sums::rough && rough_stokeslets_;
+  bool const is_rough = kind == Exchange::rough && rough_stokeslets_;
   (is_rough ? rough_stokeslets_ : stokeslets_)->add_velocity(strengths_, received);
   parallel_for("Radiation::own_flow", static_cast<long>(first_fiber_node_.size()) - 1, [&](long fiber) {
     std::size_t const begin = first_fiber_node_[fiber], end = first_fiber_node_[fiber + 1];
@@ -112,33 +120,34 @@ void Radiation::add_fibers(ConstPoints force_density, Sums sums, Points received
   });
 }
 
-void Radiation::add_bodies(std::vector<Vector6> const& motions, ConstPoints incident, Points received) {
+void Radiation::add_bodies(std::vector<Vector6> const& motions, ConstPoints incident, Exchange kind, Points received) {
   PointArray flow;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     flow.assign(body_targets_[b].size(), Vec3d{});
-    bodies_[b]->add_velocity(wall_velocity(b, motions[b], incident), body_targets_[b], flow);
+    add_flow(*bodies_[b], kind, wall_velocity(b, motions[b], incident), body_targets_[b], flow);
     std::size_t const skipped = first_[b + 1] - first_[b];
     for (std::size_t i = 0; i < flow.size(); ++i)
       received[i < first_[b] ? i : i + skipped] += poses_[b].rotation * flow[i];
   }
 }
 
-void Radiation::add_periphery(ConstPoints incident, Points received) {
+void Radiation::add_periphery(ConstPoints incident, Exchange kind, Points received) {
   if (periphery_)
-    periphery_->add_velocity(periphery_wall_velocity(incident), periphery_targets_, received.first(first_.back()));
+    add_flow(*periphery_, kind, periphery_wall_velocity(incident), periphery_targets_, received.first(first_.back()));
 }
 
 void Radiation::exchange(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,
-                         Points received, Sums sums) {
+                         Points received, Exchange kind) {
   ASTERFLOW_REQUIRE(incident.size() == nodes_.size() && received.size() == nodes_.size());
   std::fill(received.begin(), received.end(), Vec3d{});
   Timer timer;
-  if (n_fiber_nodes_ > 0) add_fibers(force_density, sums, received);
-  (sums == Sums::rough ? seconds_.rough_sums : seconds_.sums) += timer.seconds();
+  bool const is_rough = kind == Exchange::rough;
+  if (n_fiber_nodes_ > 0) add_fibers(force_density, kind, received);
+  (is_rough ? seconds_.rough_sums : seconds_.sums) += timer.seconds();
   timer.restart();
-  add_bodies(motions, incident, received);
-  add_periphery(incident, received);
-  seconds_.surfaces += timer.seconds();
+  add_bodies(motions, incident, kind, received);
+  add_periphery(incident, kind, received);
+  (is_rough ? seconds_.rough_surfaces : seconds_.surfaces) += timer.seconds();
 }
 
 void Radiation::add_velocity(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,

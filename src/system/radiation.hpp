@@ -32,8 +32,8 @@ struct RadiationOptions {
   double accuracy = 1e-6;  // of the pair sums
 };
 
-// Pair sums as accurate as asked for, or rough ones that cost a fraction: for the inside of a preconditioner.
-enum class Sums { accurate, rough };
+// As accurate as asked for, or at a fraction of the cost: for the inside of a preconditioner.
+enum class Exchange { accurate, rough };
 
 class Radiation {
  public:
@@ -50,7 +50,7 @@ class Radiation {
   std::size_t n_fiber_nodes() const { return n_fiber_nodes_; }
   std::size_t first_body_node(std::size_t body) const { return first_[body]; }
   std::size_t first_periphery_node() const { return first_.back(); }
-  bool has_rough_sums() const { return rough_stokeslets_ != nullptr; }
+  bool has_rough_exchange() const { return rough_stokeslets_ != nullptr; }
   bool has_periphery() const { return periphery_ != nullptr; }
   RigidPose const& body_pose(std::size_t body) const { return poses_[body]; }
   Surface const& body_surface(std::size_t body) const { return bodies_[body]->surface(); }
@@ -65,7 +65,7 @@ class Radiation {
   //   motions [n_body]              velocity and angular velocity of each body
   //   incident [n_node]             um/s, read at the nodes of bodies and periphery
   void exchange(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,
-                Points received, Sums sums = Sums::accurate);
+                Points received, Exchange kind = Exchange::accurate);
 
   // Velocity of all objects at points of the fluid, added.
   void add_velocity(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,
@@ -75,16 +75,16 @@ class Radiation {
 
   // Wall time since it was made, s.
   struct Seconds {
-    double geometry = 0.0, sums = 0.0, rough_sums = 0.0, surfaces = 0.0;
+    double geometry = 0.0, sums = 0.0, surfaces = 0.0, rough_sums = 0.0, rough_surfaces = 0.0;
   };
   Seconds const& seconds() const { return seconds_; }
 
  private:
   PointArray wall_velocity(std::size_t body, Vector6 const& motion, ConstPoints incident) const;
   PointArray periphery_wall_velocity(ConstPoints incident) const;
-  void add_fibers(ConstPoints force_density, Sums sums, Points received);
-  void add_bodies(std::vector<Vector6> const& motions, ConstPoints incident, Points received);
-  void add_periphery(ConstPoints incident, Points received);
+  void add_fibers(ConstPoints force_density, Exchange kind, Points received);
+  void add_bodies(std::vector<Vector6> const& motions, ConstPoints incident, Exchange kind, Points received);
+  void add_periphery(ConstPoints incident, Exchange kind, Points received);
 
   std::vector<Flow> bodies_;
   Flow periphery_;

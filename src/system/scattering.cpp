@@ -38,17 +38,17 @@ void Scattering::answer(ConstPoints u, std::vector<Vector6> loads, bool affine, 
   fibers_.add_linear_response(u, motions, force_density, loads);
 }
 
-void Scattering::apply(ConstVector z, Vector result, bool affine, Sums sums) const {
+void Scattering::apply(ConstVector z, Vector result, bool affine, Exchange kind) const {
   ConstPoints const incident = as_points(z);
   std::vector<Vector6> loads, motions;
   for (std::size_t b = 0; b < bodies_.size(); ++b) loads.push_back(radiation_->load_of_incident(b, incident));
   PointArray force_density(radiation_->n_fiber_nodes());
   answer(incident.first(force_density.size()), loads, affine, force_density, motions);
-  radiation_->exchange(force_density, motions, incident, as_points(result), sums);
+  radiation_->exchange(force_density, motions, incident, as_points(result), kind);
 }
 
-void Scattering::apply_equation(ConstVector z, Vector result, Sums sums) const {
-  apply(z, result, false, sums);
+void Scattering::apply_equation(ConstVector z, Vector result, Exchange kind) const {
+  apply(z, result, false, kind);
   for (std::size_t i = 0; i < z.size(); ++i) result[i] = z[i] - result[i];
 }
 
@@ -86,13 +86,13 @@ GmresResult Scattering::correct(ConstVector residual, double reference, Vector c
     std::copy(r.begin(), r.end(), result.begin());
     if (memory_) memory_->precondition(result);
   };
-  bool const is_nested = radiation_->has_rough_sums();
+  bool const is_nested = radiation_->has_rough_exchange();
   Recorder equation([&](ConstVector z, Vector result) {
-    apply_equation(z, result, is_nested ? Sums::rough : Sums::accurate);
+    apply_equation(z, result, is_nested ? Exchange::rough : Exchange::accurate);
   });
   GmresResult result;
   if (is_nested) {
-    auto const accurate = [&](ConstVector z, Vector result) { apply_equation(z, result, Sums::accurate); };
+    auto const accurate = [&](ConstVector z, Vector result) { apply_equation(z, result, Exchange::accurate); };
     double to_go = 1.0;  // what remains to be gained
     options.monitor = [&](double outer_residual) { to_go = options_.tolerance / outer_residual; };
     auto const rough_solve = [&](ConstVector r, Vector result) {
@@ -116,13 +116,13 @@ ScatteringSolution Scattering::solve(ConstPoints background, ConstPoints guess) 
   solution.incident.assign(n, Vec3d{});
   if (radiation_) {
     PointArray scale(n), residual(n), correction(n);
-    auto const apply_to_guess = [&](PointArray& result, Sums sums) {
-      apply(as_vector(solution.incident), as_vector(result), true, sums);
+    auto const apply_to_guess = [&](PointArray& result, Exchange kind) {
+      apply(as_vector(solution.incident), as_vector(result), true, kind);
       for (std::size_t i = 0; i < background.size(); ++i) result[i] += background[i];
     };
-    apply_to_guess(scale, Sums::rough);  // b
+    apply_to_guess(scale, Exchange::rough);  // b
     if (!guess.empty()) std::copy(guess.begin(), guess.end(), solution.incident.begin());
-    apply_to_guess(residual, Sums::accurate);
+    apply_to_guess(residual, Exchange::accurate);
     for (std::size_t i = 0; i < n; ++i) residual[i] -= solution.incident[i];
     solution.gmres = correct(as_vector(residual), flat(ConstPoints(scale)).norm(), as_vector(correction),
                              solution.inner_iterations);

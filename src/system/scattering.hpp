@@ -59,7 +59,7 @@ struct ScatteringSolution {
 };
 
 // What a sequence of similar problems remembers: more directions save few iterations (bench_step).
-inline constexpr int recycled_directions = 40;
+inline constexpr int recycled_directions = 60;
 
 class Scattering {
  public:
@@ -83,9 +83,9 @@ class Scattering {
 
  private:
   // result = L z, + b if affine
-  void apply(ConstVector z, Vector result, bool affine, Sums sums) const;
+  void apply(ConstVector z, Vector result, bool affine, Exchange kind) const;
   // result = (I - L) z
-  void apply_equation(ConstVector z, Vector result, Sums sums) const;
+  void apply_equation(ConstVector z, Vector result, Exchange kind) const;
   GmresResult correct(ConstVector residual, double reference, Vector correction, int& inner_iterations);
 
   FiberAnswers const& fibers_;

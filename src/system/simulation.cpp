@@ -159,6 +159,7 @@ ScatteringSolution Simulation::solve(double dt, std::vector<BodyMotionMap> const
     report.sum_seconds += radiation_->seconds().sums - before.sums;
     report.surface_seconds += radiation_->seconds().surfaces - before.surfaces;
     report.rough_sum_seconds += radiation_->seconds().rough_sums - before.rough_sums;
+    report.rough_surface_seconds += radiation_->seconds().rough_surfaces - before.rough_surfaces;
   }
   return solution;
 }

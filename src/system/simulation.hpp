@@ -32,7 +32,8 @@ struct StepReport {
   double residual = 0.0;     // relative
   int rejected = 0;          // trials before it
   double seconds = 0.0;      // wall time, with rejected trials, of which
-  double prepare_seconds = 0.0, sum_seconds = 0.0, rough_sum_seconds = 0.0, surface_seconds = 0.0;
+  double prepare_seconds = 0.0, sum_seconds = 0.0, surface_seconds = 0.0, rough_sum_seconds = 0.0,
+         rough_surface_seconds = 0.0;
 };
 
 class Simulation {

@@ -141,3 +141,23 @@ TEST(DirichletFlow, refuses_targets_on_the_wrong_side) {
   PointArray const targets{{0, 0, 0.5}, {0, 0, 1.1}};
   EXPECT_THROW(flow.plan(targets), NumericalError);
 }
+
+TEST(DirichletFlow, rough_velocity_is_the_same_to_three_digits) {
+  for (Side const side : {Side::interior, Side::exterior}) {
+    DirichletFlow const flow(Surface(ellipsoid({25, 15, 15}), 14), side, 1e-8);
+    PointForce const source{Vec3d{8, 9, -5} * (side == Side::interior ? 3.0 : 0.4), {0.4, -0.7, 0.9}};
+    PointArray const w = source.velocity(flow.surface().nodes());
+    PointArray targets;
+    for (int i = 0; i < 200; ++i) {
+      double const scale = 0.1 + 0.9 * uniform_random(4, i, 0, 0);
+      targets.push_back((side == Side::interior ? scale : 1.0 / scale) * scaled({25, 15, 15}, direction(i)));
+    }
+    auto const planned = flow.plan(targets);
+    PointArray u(targets.size()), rough(targets.size());
+    flow.add_velocity(w, planned, u);
+    flow.add_rough_velocity(w, planned, rough);
+    double const size = flat(ConstPoints(u)).norm(), error = (flat(ConstPoints(u)) - flat(ConstPoints(rough))).norm();
+    EXPECT_LT(error, 1e-3 * size);
+    EXPECT_GT(error, 0.0);
+  }
+}
