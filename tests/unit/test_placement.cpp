@@ -69,7 +69,9 @@ TEST(Placement, a_failed_attempt_changes_nothing) {
   auto const after = simulation.restart();
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t i = 0; i < before.size(); ++i)
-    if (before[i].name != "step/next") EXPECT_EQ(before[i].values, after[i].values) << before[i].name;
+    if (before[i].name != "step/next") {
+      EXPECT_EQ(before[i].values, after[i].values) << before[i].name;
+    }
 }
 
 TEST(Placement, names_bodies_that_touch_the_periphery_or_each_other) {
