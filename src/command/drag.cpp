@@ -7,10 +7,12 @@
 #include "io/scene.hpp"
 #include "system/drag.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <memory>
+#include <sstream>
 #include <unistd.h>
 
 namespace asterflow {
@@ -40,15 +42,51 @@ void write_points(fs::path const& path, std::vector<DragPoint> const& points) {
   if (!file || error) throw SceneError(path.string() + ": cannot be written; is the disk full or the folder protected?");
 }
 
-fs::path prepare_folder(DragOptions const& options) {
+// What makes two studies one: the scene and its changes, but not which points are asked for.
+std::string identity_of(Scene const& scene) {
+  std::string text;
+  for (auto const& change : scene.overrides)
+    if (!change.starts_with("drag.fiber_counts=") && !change.starts_with("drag.levels=")) text += "# --set " + change + "\n";
+  return text + scene.text;
+}
+
+std::string read_text(fs::path const& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The points of an earlier, perhaps interrupted study of the same scene.
+std::vector<DragPoint> read_points(fs::path const& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  std::vector<DragPoint> points;
+  while (std::getline(file, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream words(line);
+    std::string level;
+    DragPoint p;
+    words >> level >> p.fiber_count >> p.translation >> p.translation_spread >> p.rotation >> p.rotation_spread >>
+        p.iterations >> p.steps >> p.seconds;
+    bool is_known = false;
+    for (auto const candidate : {Interactions::local, Interactions::open, Interactions::confined})
+      if (level == name_of(candidate)) p.level = candidate, is_known = true;
+    if (!words || !is_known) throw SceneError(path.string() + ": is not a table of this study; choose another folder with -o");
+    points.push_back(p);
+  }
+  return points;
+}
+
+fs::path prepare_folder(DragOptions const& options, Scene const& scene) {
   fs::path folder = options.folder;
   if (folder.empty()) folder = fs::path(options.scene).stem().string() + "-drag";
   std::error_code error;
-  if (fs::exists(folder / "drag.csv", error))
-    throw SceneError((folder / "drag.csv").string() + ": is there already; choose another folder with -o");
+  if (fs::exists(folder / "drag.csv", error) && read_text(folder / "drag.toml") != identity_of(scene))
+    throw SceneError((folder / "drag.csv").string() + ": is there already, of another scene; choose another folder with -o");
   fs::create_directories(folder, error);
   if (error || ::access(folder.c_str(), W_OK) != 0)
     throw SceneError(folder.string() + ": cannot be used for output; choose another folder with -o");
+  std::ofstream(folder / "drag.toml", std::ios::binary) << identity_of(scene);
   return folder;
 }
 
@@ -63,9 +101,13 @@ void study(DragOptions const& options) {
   for (Interactions level : scene.drag.levels)
     if (level == Interactions::confined && !scene.periphery)
       throw SceneError(options.scene + ": [drag]: levels: confined needs a [periphery]");
-  fs::path const folder = prepare_folder(options);
+  fs::path const folder = prepare_folder(options, scene);
   fs::path const table = folder / "drag.csv", picture = folder / "drag.png";
-  std::vector<DragPoint> points;
+  std::vector<DragPoint> points = read_points(table);
+  auto const is_known = [&](Interactions level, int fiber_count) {
+    return std::any_of(points.begin(), points.end(),
+                       [&](DragPoint const& p) { return p.level == level && p.fiber_count == fiber_count; });
+  };
   Timer const timer;
   auto const done = [&](DragPoint const& point) {
     points.push_back(point);
@@ -74,7 +116,7 @@ void study(DragOptions const& options) {
                isatty(STDERR_FILENO) ? "\r\033[K" : "", name_of(point.level), point.fiber_count, point.translation,
                point.rotation, point.iterations, duration_words(point.seconds));
   };
-  drag_study(scene, done, [&](DragPoint const& point, double fraction) { show(point, fraction, timer); });
+  drag_study(scene, is_known, done, [&](DragPoint const& point, double fraction) { show(point, fraction, timer); });
   fmt::print("{}\n", table.string());
   if (draw_picture("plot_drag.py", {table.string(), picture.string()})) fmt::print("{}\n", picture.string());
 }
@@ -86,7 +128,8 @@ void add_drag_command(CLI::App& program, Action& chosen) {
   auto* const command = program.add_subcommand(
       "drag", "The paper's Figure 2: drag of a body with growing fibers against their number, for the levels local, open\n"
               "and confined, relative to the body alone in unbounded fluid. Writes DIR/drag.csv and DIR/drag.png; the\n"
-              "table [drag] of the scene says which numbers, levels, force, torque and times.");
+              "table [drag] of the scene says which numbers, levels, force, torque and times. Points that drag.csv has\n"
+              "already, from an interrupted study of the same scene, are kept.");
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
   command->add_option("-o,--output", options->folder, "folder; SCENE-drag when not given");
   add_overrides(*command, options->overrides);

@@ -80,12 +80,13 @@ Measurement measure(Scene const& scene, std::size_t body, Pull pull, std::functi
 
 }  // namespace
 
-std::vector<DragPoint> drag_study(Scene const& scene, std::function<void(DragPoint const&)> const& done,
-                                  std::function<void(DragPoint const&, double)> const& progress) {
+void drag_study(Scene const& scene, std::function<bool(Interactions, int)> const& is_known,
+                std::function<void(DragPoint const&)> const& done,
+                std::function<void(DragPoint const&, double)> const& progress) {
   std::size_t const body = studied_body(scene);
-  std::vector<DragPoint> points;
   for (Interactions const level : scene.drag.levels)
     for (int const count : scene.drag.fiber_counts) {
+      if (is_known(level, count)) continue;
       Timer const timer;
       DragPoint point;
       point.level = level;
@@ -101,10 +102,8 @@ std::vector<DragPoint> drag_study(Scene const& scene, std::function<void(DragPoi
       point.steps = translation.steps + rotation.steps;
       point.iterations = static_cast<double>(translation.iterations + rotation.iterations) / point.steps;
       point.seconds = timer.seconds();
-      points.push_back(point);
       done(point);
     }
-  return points;
 }
 
 }  // namespace asterflow

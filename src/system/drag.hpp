@@ -21,8 +21,10 @@ struct DragPoint {
   double seconds = 0.0;  // wall time
 };
 
-// Calls `done` after each point and `progress` after each step (fraction of the point, 0 to 1).
-std::vector<DragPoint> drag_study(Scene const& scene, std::function<void(DragPoint const&)> const& done,
-                                  std::function<void(DragPoint const&, double)> const& progress);
+// Calls `done` after each point and `progress` after each step (fraction of the point, 0 to 1). Leaves out the points
+// (level, number of fibers) that are known.
+void drag_study(Scene const& scene, std::function<bool(Interactions, int)> const& is_known,
+                std::function<void(DragPoint const&)> const& done,
+                std::function<void(DragPoint const&, double)> const& progress);
 
 }  // namespace asterflow

@@ -35,7 +35,8 @@ class Scenes(CommandTest):
         out = self.folder / "drag"
         scene = SCENES / "figure2.toml"
         study = {"drag.fiber_counts": "[0, 6]", "drag.settling_time": 0, "drag.duration": 0.02, "drag.samples": 1}
-        self.expect_done("drag", scene, "-o", out, *shortened(scene), *[w for k, v in study.items() for w in ("--set", f"{k}={v}")])
+        words = [*shortened(scene), *[w for k, v in study.items() for w in ("--set", f"{k}={v}")]]
+        self.expect_done("drag", scene, "-o", out, *words)
         with open(out / "drag.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([(row["level"], row["fibers"]) for row in rows],
@@ -44,6 +45,12 @@ class Scenes(CommandTest):
         self.assertAlmostEqual(drag["local", "0"], 1.0, delta=1e-3)
         self.assertAlmostEqual(drag["open", "0"], 1.0, delta=1e-2)
         self.assertGreater(drag["confined", "0"], 1.5)
+        table = (out / "drag.csv").read_text()
+        (out / "drag.csv").write_text("".join(table.splitlines(keepends=True)[:-1]))  # as if interrupted
+        again = self.expect_done("drag", scene, "-o", out, *words).stderr
+        self.assertEqual(again.count("translation"), 1)
+        with open(out / "drag.csv", newline="") as file:
+            self.assertEqual([row["translation_drag"] for row in csv.DictReader(file)], [row["translation_drag"] for row in rows])
         self.expect_refusal("drag", scene, "-o", out, names=["drag.csv", "is there already"])
 
     def test_the_drag_study_refuses_what_it_cannot_study(self):
