@@ -13,10 +13,18 @@ namespace {
 
 constexpr char const* axes = "xyz";
 
-// Material velocities [n_node] of the fibers: V = u + c (I + t t) (f + f_motor).
-PointArray material_velocities(StoredFlow const& flow, double viscosity, StoredFibers const& fibers,
-                               ConstPoints tangents) {
-  PointArray velocity = flow.incident_at_fibers();
+// Tangents [n_node] of all fibers.
+PointArray tangents_of(StoredFibers const& fibers) {
+  PointArray tangents(fibers.position.size()), curvatures(fibers.position.size());
+  for (std::size_t i = 0; i < fibers.count(); ++i)
+    differentiate(fibers, i, Points(tangents).subspan(fibers.first[i], fibers.node_count(i)),
+                  Points(curvatures).subspan(fibers.first[i], fibers.node_count(i)));
+  return tangents;
+}
+
+// Material velocities [n_node] of the fibers in the flow u of all others: V = u + c (I + t t) (f + f_motor).
+PointArray material_velocities(ConstPoints u, double viscosity, StoredFibers const& fibers, ConstPoints tangents) {
+  PointArray velocity(u.begin(), u.end());
   for (std::size_t i = 0; i < fibers.count(); ++i) {
     double const c = slender_body_mobility(fibers.length[i], fibers.material[i].radius, viscosity);
     for (auto k = fibers.first[i]; k < fibers.first[i + 1]; ++k) {
@@ -27,19 +35,15 @@ PointArray material_velocities(StoredFlow const& flow, double viscosity, StoredF
   return velocity;
 }
 
-void add_power(StoredFlow const& flow, Scene const& scene, StoredFibers const& fibers, Observables& row) {
-  PointArray tangents(fibers.position.size()), curvatures(fibers.position.size());
-  for (std::size_t i = 0; i < fibers.count(); ++i)
-    differentiate(fibers, i, Points(tangents).subspan(fibers.first[i], fibers.node_count(i)),
-                  Points(curvatures).subspan(fibers.first[i], fibers.node_count(i)));
-  PointArray const velocity = material_velocities(flow, scene.fluid.viscosity, fibers, tangents);
+void add_power(StoredFlow const& flow, Scene const& scene, StoredFibers const& fibers, ConstPoints velocity,
+               ConstPoints tangents, Observables& row) {
   double motors = 0.0, tips = 0.0, bodies = 0.0;
   for (std::size_t i = 0; i < fibers.count(); ++i) {
     for (auto k = fibers.first[i]; k < fibers.first[i + 1]; ++k)
       motors += fibers.weight[k] * fibers.motor_load[i] * dot(tangents[k], velocity[k]);
     if (norm(fibers.plus_end_force[i]) > 0.0)
       tips += dot(fibers.plus_end_force[i],
-                  value_at_plus_end(ConstPoints(velocity).subspan(fibers.first[i], fibers.node_count(i))));
+                  value_at_plus_end(velocity.subspan(fibers.first[i], fibers.node_count(i))));
   }
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     if (scene.bodies[b].motion == BodySpec::Motion::free)
@@ -48,6 +52,11 @@ void add_power(StoredFlow const& flow, Scene const& scene, StoredFibers const& f
   row.push_back({"motor_power", motors});
   row.push_back({"tip_power", tips});
   row.push_back({"body_power", bodies});
+}
+
+void add_fibers(StoredFlow const& flow, Scene const& scene, StoredFibers const& fibers, Observables& row) {
+  PointArray const u = flow.incident_at_fibers(), tangents = tangents_of(fibers);
+  add_power(flow, scene, fibers, material_velocities(u, scene.fluid.viscosity, fibers, tangents), tangents, row);
 }
 
 // Forces from outside on plus ends, along fibers and on free bodies; NaN with held bodies, whose holder is not stored.
@@ -86,8 +95,23 @@ double mean_x(ConstPoints velocity) {
   return velocity.empty() ? std::nan("") : sum / static_cast<double>(velocity.size());
 }
 
-void add_speeds(StoredFlow const& flow, Scene const& scene, Frame const& frame, Observables& row) {
-  FluidSamples const samples = fluid_samples(scene, frame);
+// Along the fibers, and along x on the -x side of the first body.
+void add_flow_in_asters(StoredFlow const& flow, FluidSamples const& samples, Observables& row) {
+  PointArray const velocity = velocity_at(flow, samples.beside_fibers);
+  double const border = flow.motions().empty() ? 0.0 : flow.radiation().body_pose(0).position.x;
+  double along = 0.0;
+  PointArray anterior;
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    along += dot(velocity[i], samples.fiber_directions[i]);
+    if (samples.beside_fibers[i].x < border) anterior.push_back(velocity[i]);
+  }
+  row.push_back({"flow_along_fibers", velocity.empty() ? std::nan("") : along / static_cast<double>(velocity.size())});
+  row.push_back({"flow_in_anterior_asters_x", mean_x(anterior)});
+}
+
+void add_speeds(StoredFlow const& flow, Scene const& scene, Frame const& frame, StoredFibers const& fibers,
+                Observables& row) {
+  FluidSamples const samples = fluid_samples(scene, frame, fibers);
   double sum = 0.0, largest = 0.0;
   for (Vec3d const& u : velocity_at(flow, samples.spread)) sum += norm(u), largest = std::max(largest, norm(u));
   double const mean = sum / static_cast<double>(samples.spread.size());
@@ -97,6 +121,7 @@ void add_speeds(StoredFlow const& flow, Scene const& scene, Frame const& frame, 
   row.push_back({"fluid_speed_ratio", body > 0.0 ? mean / body : std::nan("")});
   row.push_back({"flow_anterior_x", mean_x(velocity_at(flow, samples.anterior))});
   row.push_back({"flow_posterior_x", mean_x(velocity_at(flow, samples.posterior))});
+  add_flow_in_asters(flow, samples, row);
   bool const has_surface = flow.radiation().nodes().size() > flow.radiation().n_fiber_nodes();
   row.push_back({"no_slip_residual", has_surface ? no_slip_residual(flow).relative() : std::nan("")});
 }
@@ -107,7 +132,8 @@ Observables nothing() {
        {"motor_power", "tip_power", "body_power", "net_force_x", "net_force_y", "net_force_z", "net_torque_x",
         "net_torque_y", "net_torque_z", "force_imbalance", "force_moment_xx", "force_moment_yy", "force_moment_zz",
         "force_moment_xy", "force_moment_xz", "force_moment_yz", "puller_index", "fluid_speed_mean",
-        "fluid_speed_largest", "fluid_speed_ratio", "flow_anterior_x", "flow_posterior_x", "no_slip_residual"})
+        "fluid_speed_largest", "fluid_speed_ratio", "flow_anterior_x", "flow_posterior_x", "flow_along_fibers",
+        "flow_in_anterior_asters_x", "no_slip_residual"})
     row.push_back({name, std::nan("")});
   return row;
 }
@@ -119,9 +145,9 @@ Observables flow_observables(Scene const& scene, SceneFlows const& flows, Frame 
   if (scene.run.interactions == Interactions::local || frame.time == 0.0) return nothing();
   StoredFlow const flow(scene, flows, frame);
   Observables row;
-  add_power(flow, scene, fibers, row);
+  add_fibers(flow, scene, fibers, row);
   add_moments(flow, scene, flows, fibers, row);
-  add_speeds(flow, scene, frame, row);
+  add_speeds(flow, scene, frame, fibers, row);
   return row;
 }
 

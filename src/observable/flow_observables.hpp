@@ -11,6 +11,8 @@
 //   fluid_speed_mean, _largest        um/s, over points spread evenly in the fluid
 //   fluid_speed_ratio                 the mean over the speed of the first body
 //   flow_anterior_x, flow_posterior_x um/s, mean u_x in a cylinder of half the first body's radius on its -x and +x side
+//   flow_along_fibers                 um/s, mean velocity of the fluid 0.75 um beside the fibers, towards plus ends
+//   flow_in_anterior_asters_x         um/s, mean u_x there, on the -x side of the first body
 //   no_slip_residual                  of system/no_slip.hpp, relative
 
 #include "observable/observable.hpp"

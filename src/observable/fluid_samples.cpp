@@ -1,5 +1,6 @@
 #include "observable/fluid_samples.hpp"
 
+#include "base/rigid.hpp"
 #include "io/frame.hpp"
 #include "io/scene_geometry.hpp"
 
@@ -48,9 +49,26 @@ PointArray cylinder(PlacedScene const& placed, double side) {
   return points;
 }
 
+void add_beside_fibers(StoredFibers const& fibers, PlacedScene const& placed, FluidSamples& samples) {
+  constexpr double offset = 0.75, golden_angle = 2.399963229728653;
+  std::size_t const stride = fibers.position.size() / n_spread + 1;
+  for (std::size_t i = 0; i < fibers.count(); ++i) {
+    Vec3d const direction = normalized(fibers.plus_end[i] - fibers.minus_end[i]);
+    Eigen::Vector3d const axis = to_eigen(direction), first = axis.unitOrthogonal(), second = axis.cross(first);
+    for (auto k = fibers.first[i]; k < fibers.first[i + 1]; ++k) {
+      if (k % static_cast<std::int64_t>(stride) != 0) continue;
+      double const turn = golden_angle * static_cast<double>(k);
+      Vec3d const x = fibers.position[k] + offset * to_vec3(std::cos(turn) * first + std::sin(turn) * second);
+      if (placed.clearance(x) < margin) continue;
+      samples.beside_fibers.push_back(x);
+      samples.fiber_directions.push_back(direction);
+    }
+  }
+}
+
 }  // namespace
 
-FluidSamples fluid_samples(Scene const& scene, Frame const& frame) {
+FluidSamples fluid_samples(Scene const& scene, Frame const& frame, StoredFibers const& fibers) {
   PlacedScene const placed = placed_scene(scene, frame);
   Vec3d const centre = placed.periphery || placed.bodies.empty() ? Vec3d{} : placed.bodies.front().position();
   double const reach = placed.periphery         ? placed.periphery->size()
@@ -63,6 +81,7 @@ FluidSamples fluid_samples(Scene const& scene, Frame const& frame) {
   }
   samples.anterior = cylinder(placed, -1.0);
   samples.posterior = cylinder(placed, 1.0);
+  add_beside_fibers(fibers, placed, samples);
   return samples;
 }
 

@@ -1,0 +1,13 @@
+#!/usr/bin/env python3
+"""Figure 3: cortical pulling. It centres and aligns the PNC together, with straight fibers under extension."""
+
+from mechanism import draw_mechanism, record_course, record_shape, spread
+from study import Study, mean_over
+
+study = Study("figure03", __doc__)
+runs = study.runs("cortical_pulling", "cortical_pulling.toml", 900.0)
+picture, tables = draw_mechanism(study, runs, "cortical pulling")
+record_course(study, tables, "centres, within about 10 min", "aligns, with the centring")
+study.record("captured fibers", "about 32 on each side", spread([mean_over(t, "fibers_captured", 60.0) for t in tables]))
+record_shape(study, tables)
+study.finish(picture)

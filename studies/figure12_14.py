@@ -1,0 +1,33 @@
+#!/usr/bin/env python3
+"""Figures 12 to 14: pushing without sliding for turnover times 3, 5 and 10 s. Shapes of the fibers, course of the PNC,
+forces at the ends."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from drawing import draw_course, draw_plane
+from pushing import TURNOVER_TIMES, draw_end_forces, no_sliding_runs, record_end_forces
+from study import Study, centring_time, mean_over, minutes, rotation_time
+
+PAPER = {3: ("15 min", 3.0, (14.8, 14.3, 0.97)), 5: ("8 min", 3.5, (19.3, 17.7, 0.92)), 10: ("8 min", 1.6, (23.3, 19.3, 0.82))}
+
+study = Study("figure12_14", __doc__)
+picture, axes = plt.subplots(3, 3, figsize=(13, 10), constrained_layout=True)
+for (plane, course, forces), turnover_time in zip(axes.T, TURNOVER_TIMES):
+    runs = no_sliding_runs(study, turnover_time)
+    tables = [study.observe(run) for run in runs]
+    with study.flow(runs[0], study.times(runs[0])[-1]) as flow:
+        draw_plane(plane, flow)
+    plane.set_title(f"turnover time {turnover_time} s, {study.options.fibers} microtubules")
+    draw_course(course, tables)
+    draw_end_forces(forces, tables[0], "")
+    name, (centring, ratio, force) = f"turnover {turnover_time} s", PAPER[turnover_time]
+    times = np.array([(centring_time(t), rotation_time(t)) for t in tables])
+    study.record(f"{name}: centring time", centring, ", ".join(minutes(c, t) for (c, _), t in zip(times, tables)))
+    study.record(f"{name}: rotation / centring time", ratio, float(f"{np.nanmean(times[:, 1] / times[:, 0]):.3g}")
+                 if np.isfinite(times).all(axis=1).any() else "not reached")
+    study.record(f"{name}: position at {tables[0]['time'][-1] / 60:.1f} min", "", f"{np.mean([t['pnc_x'][-1] for t in tables]):.2f} um")
+    study.record(f"{name}: curvature (1/um)", "grows with turnover time",
+                 float(f"{np.mean([mean_over(t, 'curvature_mean', 20.0) for t in tables]):.3g}"))
+    record_end_forces(study, name, tables, force)
+study.finish(picture)

@@ -1,0 +1,39 @@
+"""Runs and pictures of cortical pushing that several figures share: turnover times, forces at the ends of the fibers."""
+
+import numpy as np
+
+from study import mean_over
+
+TURNOVER_TIMES = (3, 5, 10)  # s, 1 / f_min
+
+
+def no_sliding_runs(study, turnover_time):
+    """Runs of the no-sliding model with that turnover time (s) at the cortex."""
+    rate = {3: 0.33, 5: 0.2, 10: 0.1}[turnover_time]
+    return study.runs(f"pushing_no_sliding-tau{turnover_time}", "pushing_no_sliding.toml", 2400.0,
+                      pushing__minimal_catastrophe_rate=rate)
+
+
+def draw_end_forces(axis, table, title):
+    """Total force on plus ends (red) and minus ends (blue) of the fibers at the cortex against minutes."""
+    for column, color, label in (("plus_end_force", "tab:red", "plus ends"), ("minus_end_force", "tab:blue", "minus ends")):
+        axis.plot(table["time"] / 60, table[column], color=color, linewidth=0.9, label=label)
+    axis.set(title=title, xlabel="time (min)", ylabel="total force (pN)")
+    axis.legend(fontsize=8)
+
+
+def end_forces(tables, settling=20.0):
+    """Means over time and seeds: plus ends (pN), minus ends (pN), and the ratio of the means."""
+    plus, minus = (np.mean([mean_over(t, column, min(settling, t["time"][-1] / 2)) for t in tables])
+                   for column in ("plus_end_force", "minus_end_force"))
+    return plus, minus, minus / plus if plus > 0 else float("nan")
+
+
+def record_end_forces(study, name, tables, paper):
+    """`paper`: plus ends, minus ends, ratio."""
+    for quantity, theirs, ours in zip(("plus-end force (pN)", "minus-end force (pN)", "minus / plus"), paper,
+                                      end_forces(tables)):
+        study.record(f"{name}: {quantity}", theirs, float(f"{ours:.3g}"),
+                     "" if study.options.fibers == 600 or "/" in quantity else
+                     f"{study.options.fibers} microtubules, paper 600: x {600 / study.options.fibers:.3g} would be "
+                     f"{ours * 600 / study.options.fibers:.3g}")

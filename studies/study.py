@@ -1,0 +1,157 @@
+"""What the studies share: their options, runs of asterflow that are resumed when interrupted, tables of observables, and
+the record of results beside the paper's.
+
+A study is one script, one figure. Runs are named by what they model, so that figures share them:
+
+    study = Study("figure06", __doc__)
+    run = study.run("cytoplasmic_pulling", "cytoplasmic_pulling.toml", end_time=600)
+    x = study.observe(run)["pnc_x"]                       # [n_state]
+    study.record("time to the centre", paper="about 5 min", ours="6.1 min")
+"""
+
+import argparse
+import csv
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+import numpy as np
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+SCENES = REPOSITORY / "scenes"
+
+
+def parse_options(description):
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--output", type=Path, default=Path("study-results"), help="folder of runs, pictures, records")
+    parser.add_argument("--program", default=str(REPOSITORY / "build/release/asterflow"), help="the asterflow to run")
+    parser.add_argument("--quick", action="store_true", help="few fibers, short, one seed: does it all work?")
+    parser.add_argument("--fibers", type=int, help="microtubules, instead of the paper's 600")
+    parser.add_argument("--end-time", type=float, help="s, at most, of every run")
+    parser.add_argument("--seeds", type=int, nargs="+", help="instead of 1 2 3")
+    parser.add_argument("--drawing-only", action="store_true", help="draw what has been run so far, run nothing")
+    options = parser.parse_args()
+    options.fibers = options.fibers or (24 if options.quick else 600)
+    options.seeds = options.seeds or ([1] if options.quick else [1, 2, 3])
+    options.end_time = options.end_time or (20.0 if options.quick else 1e9)
+    return options
+
+
+class Study:
+    def __init__(self, figure, description):
+        self.figure = figure
+        self.options = parse_options(description)
+        self.folder = self.options.output
+        (self.folder / "runs").mkdir(parents=True, exist_ok=True)
+        self.records = []
+
+    def asterflow(self, *words):
+        environment = os.environ | {"ASTERFLOW_PYTHON": "none"}  # the studies draw
+        done = subprocess.run([self.options.program, *map(str, words)], env=environment, text=True, capture_output=True)
+        if done.returncode != 0:
+            raise RuntimeError(f"asterflow {' '.join(map(str, words))}: {done.stderr.strip().splitlines()[-1]}")
+        return done.stdout
+
+    def run(self, name, scene, end_time, seed=1, **changes):
+        """Folder of the run of a scene to end_time (s), started or resumed as needed. `changes`: scene keys with __ for
+        the dot, e.g. pushing__minimal_catastrophe_rate=0.1. What stops a run early is said and kept with it."""
+        fibers = self.options.fibers
+        folder = self.folder / "runs" / f"{name}-n{fibers}-seed{seed}"
+        end_time = min(end_time, self.options.end_time)
+        if self.options.drawing_only:
+            return folder
+        settings = {"aster.0.count": fibers // 2, "aster.1.count": fibers - fibers // 2, "run.seed": seed,
+                    "output.picture": "false"}
+        settings |= {key.replace("__", "."): json.dumps(value) for key, value in changes.items()}
+        if self.options.quick:
+            settings["run.accuracy"] = 1e-2
+        print(f"{self.figure}: {folder.name} to {end_time:g} s", flush=True)
+        try:
+            if not (folder / "trajectory.h5").exists():
+                words = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+                self.asterflow("run", SCENES / scene, "-o", folder, *words, "--set", f"run.end_time={end_time}")
+            elif self.times(folder)[-1] < end_time:
+                self.asterflow("resume", folder, "--set", f"run.end_time={end_time}")
+        except RuntimeError as error:
+            print(error, file=sys.stderr)
+            (folder / "stopped.txt").write_text(f"{error}\n")
+        return folder
+
+    def runs(self, name, scene, end_time, **changes):
+        """The same with every seed."""
+        return [self.run(name, scene, end_time, seed, **changes) for seed in self.options.seeds]
+
+    @staticmethod
+    def times(run):
+        """[n_state] s"""
+        with h5py.File(run / "trajectory.h5") as file:
+            return file["time"][:]
+
+    def observe(self, run):
+        """Observables of a run by name (docs/observables.md), each [n_state]."""
+        table, trajectory = run / "observables.csv", run / "trajectory.h5"
+        if not table.exists() or table.stat().st_mtime < trajectory.stat().st_mtime:
+            self.asterflow("observe", run)
+        with open(table, newline="") as file:
+            rows = list(csv.reader(file))
+        return dict(zip(rows[0], np.array(rows[1:], dtype=float).T))
+
+    def flow(self, run, time, grid="120x76"):
+        """Open HDF5 file of the flow in the plane z = 0 at the stored state next to `time` (command/plane_flow.hpp)."""
+        states = self.times(run)[1:]
+        time = float(states[np.argmin(np.abs(states - time))])
+        prefix = run / f"plane_{time:g}"
+        file, trajectory = prefix.with_name(prefix.name + ".h5"), run / "trajectory.h5"
+        if not file.exists() or file.stat().st_size == 0:
+            self.asterflow("flow", run, "--time", time, "--grid", grid, "-o", prefix)
+            prefix.with_name(prefix.name + ".vts").unlink(missing_ok=True)
+        return h5py.File(file)
+
+    def record(self, quantity, paper, ours, note=""):
+        """A line of the table paper / asterflow; numbers are compared, words are shown."""
+        self.records.append({"figure": self.figure, "quantity": quantity, "paper": paper, "asterflow": ours, "note": note})
+
+    def finish(self, picture):
+        """Saves the picture and the records."""
+        path = self.folder / f"{self.figure}.png"
+        picture.savefig(path, dpi=90, pil_kwargs={"optimize": True})
+        settings = {"fibers": self.options.fibers, "seeds": self.options.seeds, "quick": self.options.quick}
+        (self.folder / f"{self.figure}.json").write_text(
+            json.dumps({"figure": self.figure, "settings": settings, "records": self.records}, indent=1))
+        print(path)
+
+
+def first_time(times, condition):
+    """First time (s) at which a condition [n_time] holds; nan when it never does."""
+    hits = np.flatnonzero(condition)
+    return float(times[hits[0]]) if len(hits) else float("nan")
+
+
+def centring_time(table):
+    """s, the paper's measure: first time that the PNC passes the centre."""
+    return first_time(table["time"], table["pnc_x"] <= 0.0)
+
+
+def rotation_time(table, angle=10.0):
+    """s until the intercentrosomal axis is within `angle` (degrees) of the anterior-posterior axis."""
+    return first_time(table["time"], table["pnc_angle"] <= angle)
+
+
+def minutes(seconds, table=None):
+    """'8.1 min'; what is not reached within a table says where that ends."""
+    if np.isfinite(seconds):
+        return f"{seconds / 60:.1f} min"
+    return f"not within {table['time'][-1] / 60:.1f} min" if table else "not reached"
+
+
+def mean_over(table, column, start=0.0, end=np.inf):
+    """Mean of a column over the states from `start` to `end` (s), without those where it is not a number."""
+    chosen = table[column][(table["time"] >= start) & (table["time"] <= end)]
+    chosen = chosen[np.isfinite(chosen)]
+    return float(chosen.mean()) if len(chosen) else float("nan")

@@ -1,0 +1,38 @@
+"""The studies of the paper's figures run, are resumed, and leave a picture and a record."""
+
+import json
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+from program import ASTERFLOW, CommandTest
+
+STUDIES = Path(__file__).resolve().parents[2] / "studies"
+
+
+class Studies(CommandTest):
+    def study(self, figure, *options):
+        """Records of a study, by quantity."""
+        done = subprocess.run([sys.executable, STUDIES / f"{figure}.py", "--program", ASTERFLOW, "--output", self.folder,
+                               "--quick", *map(str, options)], capture_output=True, text=True, timeout=600)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.folder / f"{figure}.png").exists())
+        records = json.loads((self.folder / f"{figure}.json").read_text())["records"]
+        return {record["quantity"]: record["asterflow"] for record in records}
+
+    def test_the_torque_instability_has_the_signs_of_figure_10(self):
+        records = self.study("figure10")
+        for law in ("free_sliding", "no_sliding"):
+            signs = [word.strip()[0] for word in records[f"{law}: growth rates there over Omega_0"].split(",")]
+            self.assertEqual(signs, ["+", "-", "+"])
+
+    def test_a_mechanism_runs_and_goes_on(self):
+        first = self.study("figure06", "--fibers", 6, "--end-time", 6)
+        self.assertIn("not within 0.1 min", first["time to the centre"])
+        longer = self.study("figure06", "--fibers", 6, "--end-time", 12)
+        self.assertIn("not within 0.2 min", longer["time to the centre"])
+
+
+if __name__ == "__main__":
+    unittest.main()
