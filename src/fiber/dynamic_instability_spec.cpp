@@ -9,6 +9,7 @@ DynamicInstabilitySpec read_dynamic_instability(Table table) {
   table.read("catastrophe_rate", spec.catastrophe_rate, not_negative, "1/s");
   table.read("rescue_rate", spec.rescue_rate, not_negative, "1/s");
   table.read("minimal_length", spec.minimal_length, positive, "um");
+  table.read("cortex_margin", spec.cortex_margin, not_negative, "um");
   table.read("initially_shrinking", spec.initially_shrinking, between(0.0, 1.0));
   table.finish();
   return spec;

@@ -12,6 +12,8 @@ struct DynamicInstabilitySpec {
   double catastrophe_rate = 0.0625;  // 1/s, >= 0, of growing fibers; mean length growth_speed / catastrophe_rate
   double rescue_rate = 0.0;          // 1/s, >= 0, of shrinking fibers
   double minimal_length = 0.5;       // um, > 0; a fiber that shrinks to it is renucleated on its site
+  double cortex_margin = 0.1;        // um, >= 0; plus ends meet the cortex so far inside the periphery, so that the
+                                     // fluid between them stays resolved
   double initially_shrinking = 0.0;  // fraction of the fibers, 0 to 1, that shrink at time 0
 };
 

@@ -28,6 +28,12 @@ struct TipLoad {
   Vec3d anchor{};                       // um
 };
 
+// Where the load of a step moves a plus end, and how a further force on it would.
+struct TipAnswer {
+  Vec3d position{};                      // um
+  Matrix3 compliance = Matrix3::Zero();  // um/pN, symmetric, not negative
+};
+
 // Force per length along the fiber, pN/um. The fluid feels the external part, but not the motors' part, which the
 // motors' cargo gives back to it (cytoplasmic pulling).
 struct FiberLoad {

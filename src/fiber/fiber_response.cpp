@@ -351,6 +351,15 @@ FiberResponse::Unknowns FiberResponse::unknowns(ConstPoints u, Vector6 const& q)
   return y;
 }
 
+TipAnswer FiberResponse::tip_answer(ConstPoints u, Vector6 const& q) const {
+  TipAnswer answer{plus_end_ + to_vec3(tip_motion_ * unknowns(u, q))};
+  if (step_.body) answer.position += body_motion(q - predicted_motion(), plus_end_);
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, max_unknowns, 3> reduced = tip_motion_.transpose();
+  lower_.triangularView<Eigen::Lower>().solveInPlace(reduced);
+  answer.compliance.noalias() = reduced.transpose() * reduced;
+  return answer;
+}
+
 Vec3d FiberResponse::tip_force(ConstPoints u, Vector6 const& q) const {
   Vec3d tip = plus_end_ + to_vec3(tip_motion_ * unknowns(u, q));
   if (step_.body) tip += body_motion(q - predicted_motion(), plus_end_);

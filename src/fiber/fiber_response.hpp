@@ -55,6 +55,8 @@ class FiberResponse {
   void advance(ConstPoints u, Vector6 const& q, RigidPose const* new_pose, Centreline const& predicted,
                Centreline& shape) const;
 
+  // The plus end at the new time level, and its compliance at fixed u and q.
+  TipAnswer tip_answer(ConstPoints u, Vector6 const& q) const;
   // Force on the plus end, pN, at the new time level.
   Vec3d tip_force(ConstPoints u, Vector6 const& q) const;
   // tension [n_node], pN, overwritten: T = F . X_s - E |X_ss|^2, with the force F(s) that the part beyond s exerts.

@@ -53,11 +53,16 @@ void Fibers::lay_out() {
 
 void Fibers::begin_step() {
   for (Fiber& fiber : fibers_)
-    fiber.plan = {fiber.past[0].length, fiber.properties.load, fiber.properties.tip, fiber.site, false};
+    fiber.plan = {fiber.past[0].length, fiber.properties.load, fiber.properties.tip, fiber.site};
 }
 
 TimeScheme Fibers::scheme_of(Fiber const& fiber) const {
-  return fiber.plan.is_newborn || fiber.n_past < 2 ? backward_euler(dt_) : second_order_scheme(dt_, dt_1_);
+  return usable_past(fiber) < 2 ? backward_euler(dt_) : second_order_scheme(dt_, dt_1_);
+}
+
+// Accepted states whose motion goes on in this step.
+int Fibers::usable_past(Fiber const& fiber) const {
+  return fiber.plan.is_newborn || fiber.plan.has_jump ? 1 : fiber.n_past;
 }
 
 // The shape at the end of the step, linearly extrapolated at fixed material coordinates and put on its site.
@@ -78,7 +83,7 @@ void Fibers::predict(Fiber& fiber, std::span<BodyMotionMap const> bodies) const 
   fiber.sampled.resize(basis.n_tangent);
   Eigen::Map<Eigen::VectorXd>(fiber.coordinates.data(), basis.n_tangent) = shape.length * basis.lobatto.nodes;
   sample(latest, fiber.coordinates, {}, shape.tangents);
-  if (!fiber.plan.is_newborn && fiber.n_past > 1) {
+  if (usable_past(fiber) > 1) {
     double const w = dt_ / dt_1_;
     sample(fiber.past[1], fiber.coordinates, {}, fiber.sampled);
     shape.minus_end += w * (latest.minus_end - fiber.past[1].minus_end);
@@ -100,7 +105,7 @@ void Fibers::set_history(Fiber& fiber, TimeScheme const& scheme) const {
   fiber.sampled.resize(n);
   fiber.coordinates.resize(n);
   Eigen::Map<Eigen::VectorXd>(fiber.coordinates.data(), n) = fiber.plan.length * basis.gauss.nodes;
-  int const n_past = fiber.plan.is_newborn ? 1 : fiber.n_past;
+  int const n_past = usable_past(fiber);
   double const a = dt_, b = dt_ + dt_1_, c = b + dt_2_;  // from the states to the end of the step
   double extrapolation[3] = {1.0, 0.0, 0.0};
   if (n_past == 2) extrapolation[0] = b / (b - a), extrapolation[1] = a / (a - b);
@@ -122,27 +127,36 @@ void Fibers::set_history(Fiber& fiber, TimeScheme const& scheme) const {
 void Fibers::prepare(double dt, std::span<BodyMotionMap const> bodies) {
   ASTERFLOW_REQUIRE(dt > 0);
   dt_ = dt;
-  parallel_for("Fibers::prepare", static_cast<long>(count()), [&](long i) {
-    Fiber& fiber = fibers_[i];
-    FiberProperties const& own = fiber.properties;
-    ASTERFLOW_REQUIRE(fiber.plan.length > 0);
-    TimeScheme const scheme = scheme_of(fiber);
-    predict(fiber, bodies);
-    set_history(fiber, scheme);
-    MinusEndSite const& site = fiber.plan.site;
-    FiberStep const step{.basis = &fiber_basis(own.n_node),
-                         .scheme = scheme,
-                         .bending_rigidity = own.bending_rigidity,
-                         .mobility = slender_body_mobility(fiber.plan.length, own.radius, viscosity_),
-                         .minus_end = site.kind,
-                         .body = site.is_attached() ? &bodies[site.body] : nullptr,
-                         .load = fiber.plan.load,
-                         .tip = fiber.plan.tip,
-                         .tension = fiber.plan.is_newborn ? ConstVector{} : ConstVector(fiber.tension)};
-    std::size_t const first = first_node_[i], n = own.n_node;
-    fiber.response.prepare(step, fiber.predicted, fiber.history, Points(nodes_).subspan(first, n),
-                           Vector(weights_).subspan(first, n));
-  });
+  parallel_for("Fibers::prepare", static_cast<long>(count()),
+               [&](long i) { prepare_again(static_cast<std::size_t>(i), bodies); });
+}
+
+void Fibers::prepare_again(std::size_t i, std::span<BodyMotionMap const> bodies) {
+  Fiber& fiber = fibers_[i];
+  FiberProperties const& own = fiber.properties;
+  ASTERFLOW_REQUIRE(fiber.plan.length > 0);
+  TimeScheme const scheme = scheme_of(fiber);
+  predict(fiber, bodies);
+  set_history(fiber, scheme);
+  MinusEndSite const& site = fiber.plan.site;
+  FiberStep const step{.basis = &fiber_basis(own.n_node),
+                       .scheme = scheme,
+                       .bending_rigidity = own.bending_rigidity,
+                       .mobility = slender_body_mobility(fiber.plan.length, own.radius, viscosity_),
+                       .minus_end = site.kind,
+                       .body = site.is_attached() ? &bodies[site.body] : nullptr,
+                       .load = fiber.plan.load,
+                       .tip = fiber.plan.tip,
+                       .tension = fiber.plan.is_newborn ? ConstVector{} : ConstVector(fiber.tension)};
+  std::size_t const first = first_node_[i], n = own.n_node;
+  fiber.response.prepare(step, fiber.predicted, fiber.history, Points(nodes_).subspan(first, n),
+                         Vector(weights_).subspan(first, n));
+}
+
+TipAnswer Fibers::tip_answer(std::size_t i, ConstPoints u, Vector6 const& q) const {
+  ASTERFLOW_REQUIRE(u.size() == node_count());
+  Fiber const& fiber = fibers_[i];
+  return fiber.response.tip_answer(u.subspan(first_node_[i], fiber.properties.n_node), q);
 }
 
 void Fibers::add_linear_response(ConstPoints u, std::span<Vector6 const> q, Points f, std::span<Vector6> loads) const {
@@ -201,7 +215,7 @@ void Fibers::advance(ConstPoints u, std::span<Vector6 const> q, std::span<RigidP
 
 void Fibers::estimate_error(Fiber& fiber) const {
   fiber.error = 0.0;
-  int const n_past = fiber.plan.is_newborn ? 1 : fiber.n_past;
+  int const n_past = usable_past(fiber);
   if (n_past < 2) return;
   sample(fiber.trial, fiber.coordinates, fiber.sampled, {});
   double const factor = n_past < 3 ? 1.0 / 3.0 : milne_factor(dt_, dt_1_, dt_2_);
@@ -221,6 +235,7 @@ void Fibers::accept() {
       std::swap(fiber.past[0], fiber.newborn);
       fiber.n_past = 1;
     }
+    if (fiber.plan.has_jump) fiber.n_past = 1;
     fiber.site = fiber.plan.site;
     std::swap(fiber.past[2], fiber.past[1]);
     std::swap(fiber.past[1], fiber.past[0]);

@@ -38,6 +38,7 @@ class Fibers {
     TipLoad tip;
     MinusEndSite site;
     bool is_newborn = false;  // start again as a straight fiber at `site`, wherever it was before
+    bool has_jump = false;    // of its load: the velocities before say nothing about those after
   };
 
   explicit Fibers(double viscosity);  // pN s / um^2
@@ -54,6 +55,12 @@ class Fibers {
   Plan& plan(std::size_t fiber) { return fibers_[fiber].plan; }
   // `bodies` [n_body] must stay alive until the step ends.
   void prepare(double dt, std::span<BodyMotionMap const> bodies);
+
+  // The same for one fiber whose plan has changed since; fibers in parallel.
+  void prepare_again(std::size_t fiber, std::span<BodyMotionMap const> bodies);
+  Centreline const& predicted_shape(std::size_t fiber) const { return fibers_[fiber].predicted; }
+  // For a given incident flow u [n_node] and motion q of the body that holds the fiber.
+  TipAnswer tip_answer(std::size_t fiber, ConstPoints u, Vector6 const& q) const;
 
   ConstPoints nodes() const { return nodes_; }      // [n_node] um, predicted for the end of the step
   ConstVector weights() const { return weights_; }  // [n_node] um, quadrature weights along the fibers
@@ -113,6 +120,7 @@ class Fibers {
   void predict(Fiber& fiber, std::span<BodyMotionMap const> bodies) const;
   void set_history(Fiber& fiber, TimeScheme const& scheme) const;
   TimeScheme scheme_of(Fiber const& fiber) const;
+  int usable_past(Fiber const& fiber) const;
   void estimate_error(Fiber& fiber) const;
 
   double viscosity_;

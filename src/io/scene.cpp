@@ -18,7 +18,8 @@ Scene read_all(Table root) {
   auto const background = root.find_table("background");
   auto const instability = root.find_table("dynamic_instability");
   auto const cytoplasmic_pulling = root.find_table("cytoplasmic_pulling");
-  SceneTables const tables{root.tables("body"), root.tables("fiber"), root.tables("aster"), root.table("drag")};
+  SceneTables const tables{root.tables("body"), root.tables("fiber"), root.tables("aster"), root.table("drag"), root.find_table("pushing"),
+                           root.find_table("cortical_pulling")};
   Table const fluid = root.table("fluid"), run = root.table("run"), output = root.table("output");
   root.finish();
 
@@ -30,6 +31,8 @@ Scene read_all(Table root) {
   if (background) scene.background = read_background(*background);
   if (instability) scene.dynamic_instability = read_dynamic_instability(*instability);
   if (cytoplasmic_pulling) scene.cytoplasmic_pulling = read_cytoplasmic_pulling(*cytoplasmic_pulling);
+  if (tables.pushing) scene.pushing = read_pushing(*tables.pushing);
+  if (tables.cortical_pulling) scene.cortical_pulling = read_cortical_pulling(*tables.cortical_pulling);
   for (auto const& body : tables.bodies) scene.bodies.push_back(read_body(body, scene.bodies.size() + 1));
   for (auto const& fiber : tables.fibers) scene.fibers.push_back(read_fiber(fiber));
   for (auto const& aster : tables.asters) scene.asters.push_back(read_aster(aster));
@@ -38,6 +41,7 @@ Scene read_all(Table root) {
     background->fail("is a flow in unbounded fluid and cannot be combined with interactions = \"confined\"");
   check_names(tables, scene);
   check_growth(tables, scene);
+  check_cortex_mechanisms(tables, scene);
   check_places(tables, scene);
   return scene;
 }

@@ -3,7 +3,7 @@
 // not have leaves an empty list or no value, and nothing is built from it. Lengths in um, times in s, forces in pN.
 //
 //   [fluid] [background] [periphery] [[body]] [[fiber]] [[aster]] [dynamic_instability] [cytoplasmic_pulling]
-//   [run] [output] [drag]
+//   [pushing] [cortical_pulling] [run] [output] [drag]
 
 #include "background/background_spec.hpp"
 #include "body/body_spec.hpp"
@@ -13,7 +13,9 @@
 #include "io/fluid_spec.hpp"
 #include "io/output_spec.hpp"
 #include "io/run_spec.hpp"
+#include "mechanism/cortical_pulling_spec.hpp"
 #include "mechanism/cytoplasmic_pulling_spec.hpp"
+#include "mechanism/pushing_spec.hpp"
 #include "periphery/periphery_spec.hpp"
 
 #include <optional>
@@ -34,6 +36,8 @@ struct Scene {
   std::vector<AsterSpec> asters;
   std::optional<DynamicInstabilitySpec> dynamic_instability;  // of fibers and asters with growing = true
   std::optional<CytoplasmicPullingSpec> cytoplasmic_pulling;
+  std::optional<PushingSpec> pushing;                  // of growing plus ends against the cortex
+  std::optional<CorticalPullingSpec> cortical_pulling;
 
   std::string file;                    // as the user wrote it
   std::string text;                    // all of it, kept with the trajectory

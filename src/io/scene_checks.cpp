@@ -3,6 +3,7 @@
 #include "io/scene_geometry.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -12,13 +13,14 @@ namespace {
 
 constexpr double touching = 1e-6;  // um: what is closer to a surface counts as on it
 
-void check_body_reference(Table const& table, Scene const& scene, std::string const& name) {
+void check_body_reference(Table const& table, Scene const& scene, std::string const& name,
+                          std::string_view key = "body") {
   if (name.empty()) return;
   std::vector<std::string> known;
   for (auto const& body : scene.bodies) known.push_back(body.name);
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  if (known.empty()) table.fail("body", "the scene has no [[body]]");
-  table.fail("body", fmt::format("must be the name of a [[body]] (known: {})", fmt::join(known, ", ")));
+  if (known.empty()) table.fail(key, "the scene has no [[body]]");
+  table.fail(key, fmt::format("must be the name of a [[body]] (known: {})", fmt::join(known, ", ")));
 }
 
 void check_bodies(SceneTables const& tables, Scene const& scene, PlacedScene const& placed) {
@@ -87,6 +89,29 @@ void check_growth(SceneTables const& tables, Scene const& scene) {
     if (scene.fibers[i].material.growing) tables.fibers[i].fail("growing", "needs a table [dynamic_instability]");
   for (std::size_t i = 0; i < scene.asters.size(); ++i)
     if (scene.asters[i].material.growing) tables.asters[i].fail("growing", "needs a table [dynamic_instability]");
+}
+
+void check_cortex_mechanisms(SceneTables const& tables, Scene const& scene) {
+  for (auto const& table : {tables.pushing, tables.cortical_pulling}) {
+    if (!table) continue;
+    if (!scene.periphery) table->fail("needs a table [periphery]: the cortex");
+    if (!scene.dynamic_instability) table->fail("needs a table [dynamic_instability] and fibers with growing = true");
+  }
+  if (scene.pushing && scene.pushing->sliding != PushingSpec::Sliding::free && !scene.pushing->spring_stiffness) {
+    bool held_in_space = false;
+    for (auto const& fiber : scene.fibers) held_in_space |= fiber.material.growing && fiber.body.empty();
+    for (auto const& aster : scene.asters) held_in_space |= aster.material.growing && aster.body.empty();
+    if (held_in_space)
+      tables.pushing->fail("spring_stiffness", "is needed: it follows from the radius of the body only for fibers on a body");
+  }
+  if (!scene.cortical_pulling) return;
+  check_body_reference(*tables.cortical_pulling, scene, scene.cortical_pulling->dividing_body, "dividing_body");
+  PlacedShape const cortex(scene.periphery->shape);
+  for (Vec3d const& x : scene.cortical_pulling->positions)
+    if (double const d = cortex.signed_distance(x); std::abs(d) > 0.1)
+      tables.cortical_pulling->fail(
+          "positions", fmt::format("[{:g}, {:g}, {:g}] um lies {:.3g} um {} the cortex; sites lie on it (within 0.1 um)", x.x,
+                                   x.y, x.z, std::abs(d), d > 0 ? "outside" : "inside"));
 }
 
 void check_places(SceneTables const& tables, Scene const& scene) {

@@ -12,10 +12,13 @@ namespace asterflow {
 struct SceneTables {
   std::vector<Table> bodies, fibers, asters;
   Table drag;
+  std::optional<Table> pushing, cortical_pulling;
 };
 
 void check_names(SceneTables const& tables, Scene const& scene);
 void check_growth(SceneTables const& tables, Scene const& scene);
+// What plus ends do at the cortex needs a cortex and plus ends that grow.
+void check_cortex_mechanisms(SceneTables const& tables, Scene const& scene);
 void check_places(SceneTables const& tables, Scene const& scene);
 
 }  // namespace asterflow

@@ -55,7 +55,7 @@ SceneMobility scene_mobility(Scene const& scene) {
   SceneMobility result;
   std::size_t const n = scene.bodies.size();
   Fibers fibers(scene.fluid.viscosity);
-  std::optional<DynamicInstability> no_growth;
+  std::optional<PlusEnds> no_growth;
   add_scene_fibers(scene, fibers, no_growth);
   if (n > 0 && fibers.count() == 0 && scene.run.interactions != Interactions::local) return mobility_of_bodies(scene);
   SceneFlows const flows = make_flows(scene);

@@ -1,15 +1,14 @@
 #include "system/population.hpp"
 
-#include "base/parallel.hpp"
 #include "fiber/fitted_centreline.hpp"
+#include "io/scene_geometry.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace asterflow {
 namespace {
 
-// A growing tip turns back at this distance from the cortex, um, so that the fluid between them stays resolved.
-constexpr double cortex_margin = 0.1;
 // Growing fibers are resolved up to this length, um, whatever their length at the start.
 constexpr double resolved_length = 10.0;
 
@@ -27,7 +26,14 @@ FiberProperties properties_of(Scene const& scene, FiberMaterialSpec const& mater
   return properties;
 }
 
-void add_single(Scene const& scene, FiberSpec const& spec, Fibers& fibers, std::optional<DynamicInstability>& growth) {
+// Of the contact of a plus end with the cortex, pN/um: the scene's, else 100 E / a^2 with the radius a of the body.
+double spring_stiffness(Scene const& scene, double bending_rigidity, int body) {
+  if (!scene.pushing) return 0.0;
+  if (scene.pushing->spring_stiffness || body < 0) return scene.pushing->spring_stiffness.value_or(0.0);
+  return 100.0 * bending_rigidity / std::pow(outer_radius(scene.bodies[body].shape), 2);
+}
+
+void add_single(Scene const& scene, FiberSpec const& spec, Fibers& fibers, std::optional<PlusEnds>& growth) {
   auto properties = properties_of(scene, spec.material, spec.length);
   properties.load.external = spec.force_density;
   properties.tip.force = spec.end_force;
@@ -40,12 +46,12 @@ void add_single(Scene const& scene, FiberSpec const& spec, Fibers& fibers, std::
   MinusEndSite const site{spec.material.minus_end, body, back * (shape.minus_end - pose.position),
                           back * shape.tangents.front()};
   std::size_t const index = fibers.add(properties, site, shape);
-  if (spec.material.growing && growth) growth->add(index, shape.length);
+  if (spec.material.growing && growth) growth->add(index, shape.length, spring_stiffness(scene, properties.bending_rigidity, body));
 }
 
 }  // namespace
 
-void add_scene_fibers(Scene const& scene, Fibers& fibers, std::optional<DynamicInstability>& growth) {
+void add_scene_fibers(Scene const& scene, Fibers& fibers, std::optional<PlusEnds>& growth) {
   for (auto const& spec : scene.fibers) add_single(scene, spec, fibers, growth);
   if (scene.asters.empty()) return;
   PlacedScene const placed(scene.bodies, scene.periphery ? &scene.periphery->shape : nullptr);
@@ -56,41 +62,16 @@ void add_scene_fibers(Scene const& scene, Fibers& fibers, std::optional<DynamicI
     auto const properties = properties_of(scene, aster.material, aster.length);
     auto const reach = [&](MinusEndSite const& site) {
       return placed.reach(pose.point(site.position), pose.rotation * site.direction, 1e3) -
-             cortex_margin;
+             scene.dynamic_instability.value_or(DynamicInstabilitySpec{}).cortex_margin;
     };
     for (auto const& fiber : aster_fibers(aster, aster.count, body, scene.run.seed, number, reach)) {
       auto const shape = straight_centreline(pose.point(fiber.site.position),
                                              pose.rotation * fiber.site.direction, fiber.length, properties.n_node);
       std::size_t const index = fibers.add(properties, fiber.site, shape);
-      if (aster.material.growing && growth) growth->add(index, fiber.length);
+      if (aster.material.growing && growth)
+        growth->add(index, fiber.length, spring_stiffness(scene, properties.bending_rigidity, body));
     }
   }
-}
-
-GrowthSurroundings::GrowthSurroundings(Scene const& scene) {
-  if (scene.periphery) cortex_ = make_shape(scene.periphery->shape);
-}
-
-std::vector<TipSurroundings> GrowthSurroundings::at_tips(Fibers const& fibers, DynamicInstability const& growth,
-                                                         std::span<RigidPose const> poses,
-                                                         std::span<Vector6 const> motions) const {
-  if (!cortex_) return {};
-  std::vector<TipSurroundings> surroundings(growth.tips().size());
-  parallel_for("GrowthSurroundings::at_tips", static_cast<long>(surroundings.size()), [&](long i) {
-    std::size_t const fiber = growth.tips()[i].fiber;
-    Centreline const& shape = fibers.shape(fiber);
-    Vec3d const tip = plus_end(shape);
-    ClosestPoint const wall = cortex_->closest_point(tip);
-    // The cortex as its tangent plane at the closest point, met along the tangent of the fiber.
-    double const slope = dot(shape.tangents.back(), wall.normal);
-    if (slope <= 0.05) return;
-    surroundings[i].clearance = std::max(0.0, -wall.distance - cortex_margin) / slope;
-    if (int const body = fibers.site(fiber).body; fibers.site(fiber).is_attached()) {
-      Vec3d const velocity = velocity_of_motion(motions[body], tip - poses[body].position);
-      surroundings[i].approach_speed = dot(velocity, wall.normal) / slope;
-    }
-  });
-  return surroundings;
 }
 
 }  // namespace asterflow

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "fiber/fiber_basis.hpp"
+#include "system/population.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,14 +46,13 @@ struct Simulation::Trial {
 };
 
 Simulation::Simulation(Scene scene)
-    : scene_(std::move(scene)), fibers_(scene_.fluid.viscosity), surroundings_(scene_),
-      placement_(scene_), flows_(make_flows(scene_)) {
+    : scene_(std::move(scene)), fibers_(scene_.fluid.viscosity), placement_(scene_), flows_(make_flows(scene_)) {
   auto const& run = scene_.run;
   for (auto const& body : scene_.bodies) bodies_.emplace_back(body);
   if (scene_.background) background_.emplace(*scene_.background);
   if (scene_.cytoplasmic_pulling) cytoplasmic_pulling_.emplace(*scene_.cytoplasmic_pulling, scene_.fluid.viscosity);
-  if (scene_.dynamic_instability) growth_.emplace(*scene_.dynamic_instability, run.seed);
-  add_scene_fibers(scene_, fibers_, growth_);
+  if (scene_.dynamic_instability) plus_ends_.emplace(scene_);
+  add_scene_fibers(scene_, fibers_, plus_ends_);
   radiation_ = make_radiation(scene_, flows_);
   dt_ = run.time_step;
 }
@@ -63,18 +63,25 @@ Simulation::~Simulation() = default;
 void Simulation::plan_fibers(double dt) {
   fibers_.begin_step();
   if (cytoplasmic_pulling_) cytoplasmic_pulling_->plan(fibers_);
-  if (!growth_) return;
+  if (!plus_ends_) return;
   std::vector<RigidPose> poses;
   std::vector<Vector6> motions;
   for (auto const& body : bodies_) {
     poses.push_back(body.pose());
     motions.push_back(body.motion());
   }
-  growth_->advance(dt, surroundings_.at_tips(fibers_, *growth_, poses, motions));
-  growth_->plan(fibers_);
+  plus_ends_->plan(dt, fibers_, poses, motions);
 }
 
-TipState Simulation::tip_state(std::size_t fiber) const { return growth_ ? growth_->state_of(fiber) : TipState::still; }
+// Those that the cortex holds, for the incident flow that is expected.
+void Simulation::hold_plus_ends(double dt, std::vector<BodyMotionMap> const& maps) {
+  if (!plus_ends_) return;
+  PointArray u = guess(dt);
+  u.resize(fibers_.node_count());
+  plus_ends_->hold(fibers_, u, maps);
+}
+
+TipState Simulation::tip_state(std::size_t fiber) const { return plus_ends_ ? plus_ends_->state_of(fiber) : TipState::still; }
 
 std::size_t Simulation::exchange_memory() const {
   return radiation_ ? radiation_->memory() + memory_.memory() : 0;
@@ -173,6 +180,7 @@ void Simulation::advance(Trial& trial) {
   }
   fibers_.advance(ConstPoints(trial.solution.incident).first(fibers_.node_count()), trial.solution.motions, poses);
   trial.error = std::max(trial.error, fibers_.error_estimate());
+  if (plus_ends_) trial.error = std::max(trial.error, plus_ends_->error_estimate());
 }
 
 Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
@@ -182,6 +190,7 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   for (auto& body : bodies_) maps.push_back(body.predict(dt));
   plan_fibers(dt);
   fibers_.prepare(dt, maps);
+  hold_plus_ends(dt, maps);
   trial.misplaced = misplaced_prediction(maps);
   report.prepare_seconds += timer.seconds();
   if (!trial.misplaced.empty()) return trial;
@@ -194,7 +203,7 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
 void Simulation::accept(Trial&& trial) {
   for (auto& body : bodies_) body.accept();
   fibers_.accept();
-  if (growth_) growth_->accept();
+  if (plus_ends_) plus_ends_->accept(fibers_);
   time_ += trial.dt;
   last_dt_ = trial.dt;
   before_ = std::move(last_);

@@ -9,13 +9,12 @@
 #include "background/background_flow.hpp"
 #include "body/rigid_body.hpp"
 #include "base/named_array.hpp"
-#include "fiber/dynamic_instability.hpp"
 #include "fiber/fibers.hpp"
 #include "io/scene.hpp"
 #include "mechanism/cytoplasmic_pulling.hpp"
 #include "system/flows.hpp"
 #include "system/placement.hpp"
-#include "system/population.hpp"
+#include "system/plus_ends.hpp"
 #include "system/scattering.hpp"
 
 #include <optional>
@@ -46,6 +45,7 @@ class Simulation {
   Fibers const& fibers() const { return fibers_; }
   SceneFlows const& flows() const { return flows_; }
   std::vector<RigidBody> const& bodies() const { return bodies_; }
+  std::optional<PlusEnds> const& plus_ends() const { return plus_ends_; }
 
   // Of a body without its fibers in unbounded fluid, in the given pose.
   Matrix6 resistance_alone(std::size_t body, RigidPose const& pose) const;
@@ -72,6 +72,7 @@ class Simulation {
   std::vector<NamedArray> fiber_frame() const;
   std::vector<NamedArray> fiber_end_frame() const;
   void plan_fibers(double dt);
+  void hold_plus_ends(double dt, std::vector<BodyMotionMap> const& maps);
   std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps) const;
   Trial attempt(double dt, StepReport& report);
   ScatteringSolution solve(double dt, std::vector<BodyMotionMap> const& maps, StepReport& report);
@@ -85,9 +86,8 @@ class Simulation {
   Scene scene_;
   std::vector<RigidBody> bodies_;
   Fibers fibers_;
-  std::optional<DynamicInstability> growth_;
+  std::optional<PlusEnds> plus_ends_;
   std::optional<CytoplasmicPulling> cytoplasmic_pulling_;
-  GrowthSurroundings surroundings_;
   Placement placement_;
   std::optional<BackgroundFlow> background_;
   SceneFlows flows_;

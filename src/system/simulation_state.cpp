@@ -142,7 +142,7 @@ std::vector<NamedArray> Simulation::restart() const {
     for (auto& array : more) arrays.push_back(std::move(array));
   };
   if (fibers_.count() > 0) append(fibers_.state());
-  if (growth_) append(growth_->state());
+  if (plus_ends_) append(plus_ends_->state());
   append({NamedArray::of("flow/incident", last_.incident, "um/s"),
           NamedArray::of("flow/incident_before", before_.incident, "um/s"),
           NamedArray::of("flow/force_density", last_.force_density, "pN/um"),
@@ -163,7 +163,7 @@ void Simulation::restore(double time, std::vector<NamedArray> const& arrays) {
           Eigen::Map<Eigen::Matrix<double, RigidBody::n_state, 1> const>(&states[b * RigidBody::n_state]));
   }
   if (fibers_.count() > 0) fibers_.restore(arrays);
-  if (growth_) growth_->restore(arrays);
+  if (plus_ends_) plus_ends_->restore(arrays);
   last_.incident = find_points(arrays, "flow/incident");
   before_.incident = find_points(arrays, "flow/incident_before");
   last_.force_density = find_points(arrays, "flow/force_density");

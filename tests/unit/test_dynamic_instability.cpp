@@ -56,7 +56,7 @@ TEST(DynamicInstability, growing_tip_turns_back_at_the_cortex_at_the_exact_time)
   tips.add(0, 2.0);
   TipSurroundings const cortex{.clearance = 1.0, .approach_speed = 0.5};
   tips.advance(1.5, {&cortex, 1});  // contact after 1 s, then 0.5 s of shrinking
-  EXPECT_FALSE(tips.trial_tips()[0].is_growing);
+  EXPECT_EQ(tips.trial_tips()[0].state, TipState::shrinking);
   EXPECT_NEAR(tips.trial_tips()[0].length, 2.0 + 0.5 - 0.25, 1e-14);
 }
 

@@ -1,0 +1,161 @@
+#include "mechanism/pushing.hpp"
+
+#include "mechanism/stored_values.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace asterflow {
+namespace {
+
+using Sliding = PushingSpec::Sliding;
+
+// Free sliding: the force at this many d* is below one percent of the largest.
+constexpr double free_reach = 5.0;
+
+// um/pN: what is stiffer than this holds the wall's force without moving.
+constexpr double least_compliance = 1e-12;
+
+// x with x exp(x) = exp(log_z): Lambert's function, by Newton on x + log x = log_z.
+double lambert(double log_z) {
+  double x = log_z > 1.0 ? log_z - std::log(log_z) : std::exp(std::min(log_z, 0.0));
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    double const step = (x + std::log(x) - log_z) * x / (1 + x);
+    x = std::max(x - step, 1e-3 * x);
+    if (std::abs(step) <= 1e-15 * x) break;
+  }
+  return x;
+}
+
+}  // namespace
+
+Vec3d balanced_force(TipLoad const& load, Vec3d free_position, Matrix3 const& compliance) {
+  Matrix3 const system = Matrix3::Identity() + load.stiffness * compliance;
+  return to_vec3(system.lu().solve(to_eigen(load.force - load.stiffness * (free_position - load.anchor))));
+}
+
+void Pushing::add_tip(double spring_stiffness) {
+  stiffness_.push_back(spring_stiffness);
+  now_.emplace_back();
+  trial_ = now_;
+}
+
+double Pushing::contact_distance() const {
+  return spec_.sliding == Sliding::free ? free_reach * spec_.range : spec_.range;
+}
+
+double Pushing::growth_factor(double compression) const { return std::exp(-compression / spec_.stall_force); }
+
+void Pushing::surround(std::size_t tip, double rate_without_load, double compression,
+                       TipSurroundings& surroundings) const {
+  double const before = growth_factor(now_[tip].compression), after = growth_factor(compression);
+  auto const rate = [&](double factor) {
+    return std::max(rate_without_load / factor, spec_.minimal_catastrophe_rate);
+  };
+  surroundings.can_push = true;
+  surroundings.pushing_growth_factor = 0.5 * (before + after);
+  surroundings.pushing_catastrophe_rate = 0.5 * (rate(before) + rate(after));
+}
+
+void Pushing::surround(std::size_t tip, double rate_without_load, TipSurroundings& surroundings) const {
+  surround(tip, rate_without_load, now_[tip].compression, surroundings);
+}
+
+void Pushing::make_contact(std::size_t tip, Vec3d reached) {
+  trial_[tip] = {.is_made = true, .anchor = cortex_.at_distance(reached, contact_distance())};
+}
+
+TimeScheme Pushing::scheme(Contact const& contact, double dt) const {
+  return contact.has_before ? second_order_scheme(dt, dt_before_) : backward_euler(dt);
+}
+
+// The anchor's slip is eliminated: K (I - n n) (X - X_att) = zeta (a0 X_att - a0 A) / dt.
+TipLoad Pushing::spring(std::size_t tip, double dt) const {
+  Contact const& contact = trial_[tip];
+  double const k = stiffness_[tip], across = std::max(k, spec_.stall_force / spec_.range);
+  Vec3d expected = contact.anchor;  // at the end of the step
+  if (contact.has_before) expected += (dt / dt_before_) * (contact.anchor - contact.anchor_before);
+  expected = cortex_.at_distance(expected, contact_distance());
+  Eigen::Vector3d const n = to_eigen(cortex_.near(expected).normal);
+  if (spec_.sliding == Sliding::none)
+    return {{}, k * Matrix3::Identity() + (across - k) * n * n.transpose(), contact.anchor};
+  TimeScheme const scheme = this->scheme(contact, dt);
+  Vec3d const history = (1.0 / scheme.a0) * (scheme.a1 * contact.anchor + scheme.a2 * contact.anchor_before);
+  double const along = k / (1 + k * dt / (scheme.a0 * spec_.friction));
+  Matrix3 const normal = n * n.transpose();
+  Vec3d const anchor = history - normal * (history - expected);
+  return {{}, across * normal + along * (Matrix3::Identity() - normal), anchor};
+}
+
+// f = A exp(-d / d*), A = F_P (n . X_s), d = d_free + C f with the normal compliance C: with y = f C / d*,
+// y exp(y) = A C / d* exp(-d_free / d*).
+TipLoad Pushing::repulsion(Vec3d free_position, Matrix3 const& compliance, Vec3d tangent) const {
+  TipLoad load;
+  load.anchor = free_position;
+  for (int pass = 0; pass < 6; ++pass) {  // the normal is that of the balanced position
+    NearCortex const cortex = cortex_.near(load.anchor);
+    Vec3d const n = cortex.normal;
+    double const amplitude = spec_.stall_force * dot(n, tangent), c = std::max(dot(n, compliance * n), least_compliance);
+    if (amplitude <= 0) return {{}, Matrix3::Zero(), free_position};
+    double const free_distance = cortex.distance + dot(n, load.anchor - free_position);
+    double const force =
+        spec_.range / c * lambert(std::log(amplitude * c / spec_.range) - free_distance / spec_.range);
+    load.force = -force * n;
+    load.stiffness = force / spec_.range * (to_eigen(n) * to_eigen(n).transpose());
+    load.anchor = free_position + compliance * load.force;
+  }
+  return load;
+}
+
+TipLoad Pushing::load(std::size_t tip, Vec3d free_position, Matrix3 const& compliance, Vec3d tangent, double dt) const {
+  return spec_.sliding == Sliding::free ? repulsion(free_position, compliance, tangent) : spring(tip, dt);
+}
+
+void Pushing::advance(std::size_t tip, bool is_pushing, Vec3d force, Vec3d position, Vec3d tangent, double dt) {
+  Contact& contact = trial_[tip];
+  if (!is_pushing) {
+    contact = {};
+    return;
+  }
+  Vec3d anchor = contact.anchor;
+  if (spec_.sliding == Sliding::friction) {
+    TimeScheme const scheme = this->scheme(contact, dt);
+    double const k = stiffness_[tip] * dt / spec_.friction;
+    Vec3d const history = scheme.a1 * contact.anchor + scheme.a2 * contact.anchor_before;
+    anchor = cortex_.at_distance((1.0 / (scheme.a0 + k)) * (history + k * position), contact_distance());
+  }
+  bool const has_before = now_[tip].is_made;  // else the anchor before is younger than a whole step
+  contact = {true, has_before, anchor, contact.anchor, force, std::max(0.0, -dot(force, tangent))};
+}
+
+void Pushing::accept(double dt) {
+  now_ = trial_;
+  dt_before_ = dt;
+}
+
+bool Pushing::is_in_reach(Vec3d position) const {
+  return spec_.sliding != Sliding::free || cortex_.near(position).distance < 1.5 * contact_distance();
+}
+
+std::vector<NamedArray> Pushing::state() const {
+  std::vector<double> values;
+  for (Contact const& c : now_) {
+    values.insert(values.end(), {double(c.is_made), double(c.has_before), c.compression});
+    for (Vec3d v : {c.anchor, c.anchor_before, c.force}) values.insert(values.end(), {v.x, v.y, v.z});
+  }
+  return {{"pushing/contact", {now_.size(), 12}, values, ""},
+          NamedArray::of("pushing/time_step", std::vector<double>{dt_before_}, "s")};
+}
+
+void Pushing::restore(std::span<NamedArray const> state) {
+  auto const& values = stored_values(state, "pushing/contact", 12 * now_.size());
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    double const* v = &values[12 * i];
+    now_[i] = {v[0] != 0, v[1] != 0, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}, {v[9], v[10], v[11]}, v[2]};
+  }
+  dt_before_ = stored_values(state, "pushing/time_step", 1)[0];
+  trial_ = now_;
+}
+
+}  // namespace asterflow

@@ -1,0 +1,247 @@
+#include "system/plus_ends.hpp"
+
+#include "base/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace asterflow {
+namespace {
+
+// A tip is met by the cortex as by its tangent plane, along the tangent of the fiber; below this slope it grows along it.
+constexpr double least_slope = 0.05;
+
+std::vector<Vector6> predicted_motions(std::span<BodyMotionMap const> bodies) {
+  std::vector<Vector6> motions;
+  for (auto const& body : bodies)
+    motions.push_back((Vector6() << to_eigen(body.predicted_velocity), to_eigen(body.predicted_angular_velocity)).finished());
+  return motions;
+}
+
+// The root of a decreasing function in [low, high], by false position with the Illinois rule.
+template <class Function>
+double root(Function const& f, double low, double high, double tolerance) {
+  double f_low = f(low), f_high = f(high);
+  if (f_low <= 0) return low;
+  if (f_high >= 0) return high;
+  for (int iteration = 0; iteration < 100 && high - low > tolerance; ++iteration) {
+    double const middle = (low * f_high - high * f_low) / (f_high - f_low);
+    double const f_middle = f(middle);
+    if (std::abs(f_middle) < tolerance) return middle;
+    if (f_middle > 0) {
+      low = middle, f_low = f_middle, f_high *= 0.5;
+    } else {
+      high = middle, f_high = f_middle, f_low *= 0.5;
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+PlusEnds::PlusEnds(Scene const& scene) : growth_(*scene.dynamic_instability, scene.run.seed) {
+  if (!scene.periphery) return;
+  cortex_.emplace(make_shape(scene.periphery->shape), scene.dynamic_instability->cortex_margin);
+  if (scene.pushing) pushing_.emplace(*scene.pushing, *cortex_);
+  if (!scene.cortical_pulling) return;
+  auto const& spec = *scene.cortical_pulling;
+  pulling_.emplace(spec, *cortex_, scene.run.seed);
+  dividing_body_ = body_index(scene, spec.dividing_body);
+  posterior_ = spec.posterior;
+  fixed_plane_ = spec.dividing_plane;
+}
+
+void PlusEnds::add(std::size_t fiber, double length, double spring_stiffness) {
+  growth_.add(fiber, length);
+  if (pushing_) pushing_->add_tip(spring_stiffness);
+  if (pulling_) pulling_->add_tip();
+  surroundings_.emplace_back();
+  places_.emplace_back();
+  speeds_.push_back(0.0);
+  errors_.push_back(0.0);
+}
+
+TipSurroundings PlusEnds::surroundings(std::size_t i, Fibers const& fibers, std::span<RigidPose const> poses,
+                                       std::span<Vector6 const> motions, double dt) {
+  TipSurroundings around;
+  std::size_t const fiber = growth_.tips()[i].fiber;
+  Centreline const& shape = fibers.shape(fiber);
+  Vec3d const tip = plus_end(shape), tangent = shape.tangents.back();
+  NearCortex const cortex = cortex_->near(tip);
+  double const slope = dot(tangent, cortex.normal);
+  double const contact = pushing_ ? pushing_->contact_distance() : 0.0;
+  if (slope > least_slope) {
+    around.clearance = std::max(0.0, cortex.distance - contact) / slope;
+    if (int const body = fibers.site(fiber).body; fibers.site(fiber).is_attached()) {
+      Vec3d const velocity = velocity_of_motion(motions[body], tip - poses[body].position);
+      around.approach_speed = dot(velocity, cortex.normal) / slope;
+    }
+  } else if (slope > 0 && cortex.distance < contact) {
+    around.clearance = 0.0;
+  }
+  double const growth_speed = growth_.spec().growth_speed;
+  if (pushing_) pushing_->surround(i, growth_.spec().catastrophe_rate, around);
+  if (pulling_) {
+    places_[i] = tip + std::min(0.5 * dt * growth_speed, around.clearance) * tangent;
+    pulling_->surround(i, places_[i], plane_, around);
+  }
+  return around;
+}
+
+// Tips that come too late for their site are not captured.
+void PlusEnds::share_sites(double dt) {
+  for (std::size_t const i : pulling_->assign(growth_.trial_tips(), places_, plane_)) {
+    surroundings_[i].capture_rate = 0.0;
+    growth_.set_trial(i, growth_.advanced(i, dt, surroundings_[i]));
+  }
+}
+
+void PlusEnds::plan_loads(std::size_t i, Fibers& fibers) {
+  auto const& now = growth_.tips()[i];
+  auto const& trial = growth_.trial_tips()[i];
+  auto& plan = fibers.plan(trial.fiber);
+  if (trial.released_at) {
+    double const part = *trial.released_at / dt_;
+    plan.tip.force += now.state == TipState::pushing ? pushing_->last_force(i, part) : pulling_->last_pull(i, part);
+  }
+  if (trial.contact_at && trial.state == TipState::pushing) {
+    Centreline const& shape = fibers.shape(trial.fiber);
+    pushing_->make_contact(
+        i, plus_end(shape) + (growth_.spec().growth_speed * *trial.contact_at) * shape.tangents.back());
+  }
+}
+
+void PlusEnds::plan(double dt, Fibers& fibers, std::span<RigidPose const> poses, std::span<Vector6 const> motions) {
+  dt_ = dt;
+  if (!cortex_) {
+    growth_.advance(dt);
+    growth_.plan(fibers);
+    return;
+  }
+  plane_ = dividing_body_ < 0 ? fixed_plane_ : dot(poses[dividing_body_].position, posterior_);
+  auto const n = static_cast<long>(surroundings_.size());
+  parallel_for("PlusEnds::surroundings", n,
+               [&](long i) { surroundings_[i] = surroundings(i, fibers, poses, motions, dt); });
+  growth_.advance(dt, surroundings_);
+  if (pushing_) pushing_->begin_step();
+  if (pulling_) share_sites(dt);
+  growth_.plan(fibers);
+  for (long i = 0; i < n; ++i) plan_loads(i, fibers);
+}
+
+// The length at the end of the step for which growth and the compression that it causes agree.
+double PlusEnds::pushing_length(std::size_t i, TipAnswer const& answer, Vec3d tangent, double planned) const {
+  auto const& trial = growth_.trial_tips()[i];
+  double const pushed = growth_.spec().growth_speed * (dt_ - trial.contact_at.value_or(0.0));
+  double const planned_factor = surroundings_[i].pushing_growth_factor;
+  auto const excess = [&](double length) {
+    Vec3d const position = answer.position + (length - planned) * tangent;
+    TipLoad const load = pushing_->load(i, position, answer.compliance, tangent, dt_);
+    double const compression = std::max(0.0, -dot(balanced_force(load, position, answer.compliance), tangent));
+    TipSurroundings around;
+    pushing_->surround(i, growth_.spec().catastrophe_rate, compression, around);
+    return planned + pushed * (around.pushing_growth_factor - planned_factor) - length;
+  };
+  return root(excess, planned - pushed * planned_factor, planned + pushed * (1.0 - planned_factor), 1e-9);
+}
+
+void PlusEnds::hold_pushing(std::size_t i, Fibers& fibers, TipAnswer const& answer) {
+  auto const& trial = growth_.trial_tips()[i];
+  auto& plan = fibers.plan(trial.fiber);
+  Vec3d const tangent = fibers.predicted_shape(trial.fiber).tangents.back();
+  double const length = pushing_length(i, answer, tangent, plan.length);
+  Vec3d const position = answer.position + (length - plan.length) * tangent;
+  TipLoad const load = pushing_->load(i, position, answer.compliance, tangent, dt_);
+  double const compression = std::max(0.0, -dot(balanced_force(load, position, answer.compliance), tangent));
+  TipSurroundings around = surroundings_[i];
+  pushing_->surround(i, growth_.spec().catastrophe_rate, compression, around);
+  // The error of the trapezoidal rule for V = V_g0 / (1 + t / tau), as of a stiff contact: dt^3 V'' / 12, V'' = 2 V'^2 / V_g0.
+  double const change = 2 * (around.pushing_growth_factor - pushing_->growth_factor_before(i));
+  double const pushed = dt_ - trial.contact_at.value_or(0.0);
+  errors_[i] = pushed * growth_.spec().growth_speed * change * change / 6;
+  growth_.set_trial(i, growth_.advanced(i, dt_, around));
+  growth_.plan(fibers, i);
+  if (trial.state != TipState::pushing) return;  // the load brought its catastrophe into the step
+  plan.tip.stiffness = load.stiffness;
+  plan.tip.anchor = load.anchor;
+  plan.tip.force += load.force;
+}
+
+void PlusEnds::hold_captured(std::size_t i, Fibers& fibers, TipAnswer const& answer) {
+  auto trial = growth_.trial_tips()[i];
+  auto& plan = fibers.plan(trial.fiber);
+  Vec3d const tangent = fibers.predicted_shape(trial.fiber).tangents.back();
+  double const held = dt_ - trial.captured_at.value_or(0.0);
+  Vec3d const pull = (held / dt_) * pulling_->pull(answer.position, tangent);
+  plan.tip.force += pull;
+  double const start = plan.length - surroundings_[i].captured_speed * held;
+  double const wanted = pulling_->length_at_cortex(plan.length, answer.position + answer.compliance * pull, tangent);
+  double const length = std::max(std::min(wanted, start + growth_.spec().growth_speed * held),
+                                 std::min(start, growth_.spec().minimal_length));
+  speeds_[i] = trial.captured_at ? 0.0 : (length - start) / held;
+  trial.length = length;
+  growth_.set_trial(i, trial);
+  growth_.plan(fibers, i);
+}
+
+void PlusEnds::hold(Fibers& fibers, ConstPoints u, std::span<BodyMotionMap const> bodies) {
+  std::fill(errors_.begin(), errors_.end(), 0.0);
+  if (!pushing_ && !pulling_) return;
+  auto const motions = predicted_motions(bodies);
+  parallel_for("PlusEnds::hold", static_cast<long>(surroundings_.size()), [&](long i) {
+    auto const& trial = growth_.trial_tips()[i];
+    if (!trial.is_held()) return;
+    MinusEndSite const& site = fibers.plan(trial.fiber).site;
+    TipAnswer const answer =
+        fibers.tip_answer(trial.fiber, u, site.is_attached() ? motions[site.body] : Vector6::Zero());
+    if (trial.state == TipState::pushing)
+      hold_pushing(i, fibers, answer);
+    else
+      hold_captured(i, fibers, answer);
+    fibers.prepare_again(trial.fiber, bodies);
+  });
+}
+
+double PlusEnds::error_estimate() const {
+  return errors_.empty() ? 0.0 : *std::max_element(errors_.begin(), errors_.end());
+}
+
+void PlusEnds::accept(Fibers const& fibers) {
+  for (std::size_t i = 0; i < surroundings_.size(); ++i) {
+    auto trial = growth_.trial_tips()[i];
+    Centreline const& shape = fibers.shape(trial.fiber);
+    Vec3d const tip = plus_end(shape), tangent = shape.tangents.back();
+    if (pushing_) {
+      Vec3d const force = fibers.ends(trial.fiber).plus_end - fibers.properties(trial.fiber).tip.force;
+      pushing_->advance(i, trial.state == TipState::pushing, force, tip, tangent, dt_);
+      if (trial.state == TipState::pushing && !pushing_->is_in_reach(tip)) {
+        trial.state = TipState::growing;
+        pushing_->advance(i, false, {}, tip, tangent, dt_);
+        growth_.set_trial(i, trial);
+      }
+    }
+    if (pulling_)
+      pulling_->advance(i, trial.state == TipState::captured, pulling_->pull(tip, tangent), speeds_[i]);
+  }
+  growth_.accept();
+  if (pushing_) pushing_->accept(dt_);
+  if (pulling_) pulling_->accept();
+}
+
+std::vector<NamedArray> PlusEnds::state() const {
+  auto arrays = growth_.state();
+  auto const append = [&](std::vector<NamedArray> more) {
+    for (auto& array : more) arrays.push_back(std::move(array));
+  };
+  if (pushing_) append(pushing_->state());
+  if (pulling_) append(pulling_->state());
+  return arrays;
+}
+
+void PlusEnds::restore(std::span<NamedArray const> state) {
+  growth_.restore(state);
+  if (pushing_) pushing_->restore(state);
+  if (pulling_) pulling_->restore(state);
+}
+
+}  // namespace asterflow

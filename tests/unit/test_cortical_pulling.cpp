@@ -1,0 +1,215 @@
+#include "mechanism/cortical_pulling.hpp"
+
+#include "system/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace asterflow;
+
+namespace {
+
+CortexSurface ellipsoid() {
+  ShapeSpec spec;
+  spec.kind = ShapeSpec::Kind::ellipsoid;
+  spec.semi_axes = {5.0, 3.0, 2.0};
+  return {make_shape(spec), 0.1};
+}
+
+// A fiber held in space near one site, with chance only in the capture and detachment.
+std::string scene_of(std::string const& pulling, std::string const& more = "") {
+  return R"(
+    [fluid]
+    viscosity = 0.7
+    [periphery]
+    shape = "sphere"
+    radius = 4.0
+    [[fiber]]
+    minus_end = "clamped"
+    growing = true
+    nodes = 10
+    direction = [0, 0, 1]
+    length = 3.0
+    [dynamic_instability]
+    catastrophe_rate = 0.0
+    [cortical_pulling]
+    positions = [[0, 0, 4.0]]
+    )" + pulling + R"(
+    [run]
+    interactions = "local"
+    accuracy = 1e-4
+    )" + more;
+}
+
+}  // namespace
+
+TEST(CorticalPulling, sites_are_uniform_by_area) {
+  CorticalPulling const pulling({.sites = 4000}, ellipsoid(), 7);
+  // Area with x > a / 2 of this ellipsoid by quadrature of the parametrised surface.
+  double total = 0.0, cap = 0.0;
+  int const n = 400;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < 2 * n; ++j) {
+      double const z = (2.0 * i + 1) / n - 1, phi = M_PI * (j + 0.5) / n;
+      double const r = std::sqrt(1 - z * z);
+      Vec3d const d{z, r * std::cos(phi), r * std::sin(phi)};
+      double const area = norm(Vec3d{3.0 * 2.0 * d.x, 5.0 * 2.0 * d.y, 5.0 * 3.0 * d.z});
+      total += area;
+      if (5.0 * d.x > 2.5) cap += area;
+    }
+  double counted = 0;
+  for (Vec3d x : pulling.sites()) {
+    EXPECT_NEAR(std::pow(x.x / 5, 2) + std::pow(x.y / 3, 2) + std::pow(x.z / 2, 2), 1.0, 1e-12);
+    counted += x.x > 2.5;
+  }
+  double const share = cap / total;
+  EXPECT_NEAR(counted / 4000, share, 4 * std::sqrt(share * (1 - share) / 4000));
+}
+
+TEST(CorticalPulling, rate_is_constant_in_front_and_linear_behind_the_plane) {
+  CorticalPulling const pulling({.capture_rate = 2.0, .posterior_pole_factor = 1.5, .posterior_plane_factor = 0.5},
+                                ellipsoid(), 1);
+  EXPECT_EQ(pulling.rate_at({-5, 0, 0}, 1.0), 2.0);
+  EXPECT_EQ(pulling.rate_at({0.99, 0, 0}, 1.0), 2.0);
+  EXPECT_NEAR(pulling.rate_at({1.0001, 0, 0}, 1.0), 1.0, 1e-3);
+  EXPECT_NEAR(pulling.rate_at({3.0, 0, 0}, 1.0), 2.0, 1e-3);
+  EXPECT_NEAR(pulling.rate_at({5.0, 0, 0}, 1.0), 3.0, 1e-3);
+}
+
+TEST(CorticalPulling, captures_once_a_site_and_at_the_rate) {
+  CorticalPullingSpec const spec{.positions = {{0, 0, 2.0}, {5.0, 0, 0}}, .reach = 0.5, .capture_rate = 0.4};
+  DynamicInstability tips({.catastrophe_rate = 0.0}, 3);
+  CorticalPulling pulling(spec, ellipsoid(), 3);
+  int const n = 3000;
+  PointArray const places(n, Vec3d{0, 0, 1.8});
+  for (int i = 0; i < n; ++i) tips.add(i, 1.0), pulling.add_tip();
+  std::vector<TipSurroundings> around(n);
+  for (int i = 0; i < n; ++i) pulling.surround(i, places[i], 0.0, around[i]);
+  tips.advance(1.5, around);
+  double captured = 0;
+  for (auto const& tip : tips.trial_tips()) captured += tip.state == TipState::captured;
+  double const expected = 1 - std::exp(-0.4 * 1.5);
+  EXPECT_NEAR(captured / n, expected, 4 * std::sqrt(expected * (1 - expected) / n));
+  EXPECT_EQ(pulling.assign(tips.trial_tips(), places, 0.0).size(), captured - 1);  // one fiber a site
+}
+
+TEST(CorticalPulling, holds_for_the_residence_time_on_average) {
+  DynamicInstability tips({.catastrophe_rate = 0.0}, 5);
+  int const n = 3000;
+  for (int i = 0; i < n; ++i) tips.add(i, 100.0);
+  std::vector<TipSurroundings> around(n, {.capture_rate = 1e9, .detachment_rate = 1.0 / 20.0});
+  tips.advance(1e-6, around);
+  tips.accept();
+  double held = 0.0;
+  for (auto& one : around) one.capture_rate = 0.0;
+  for (int step = 0; step < 400; ++step) {
+    tips.advance(0.5, around);
+    for (auto const& tip : tips.trial_tips())
+      held += tip.state == TipState::captured ? 0.5 : tip.released_at.value_or(0.0);
+    tips.accept();
+  }
+  EXPECT_NEAR(held / n, 20.0, 4 * 20.0 / std::sqrt(double(n)));
+}
+
+TEST(CorticalPulling, pulls_the_captured_plus_end_and_keeps_it_at_the_cortex) {
+  for (std::string const direction : {"fiber", "normal"}) {
+    Simulation simulation(parse_scene(
+        scene_of("capture_rate = 100.0\nresidence_time = 1e6\nreach = 2.0\ndirection = \"" + direction + "\""), "t.toml"));
+    while (simulation.time() < 4.0) simulation.step(4.0);
+    EXPECT_EQ(simulation.tip_state(0), TipState::captured);
+    EXPECT_NEAR(simulation.fibers().shape(0).length, 3.9, 1e-9);  // grew to the margin of 0.1 um and stays
+    EXPECT_LT(norm(simulation.fibers().ends(0).plus_end - Vec3d{0, 0, 3.0}), 1e-9);
+    EXPECT_LT(norm(simulation.fibers().ends(0).minus_end - Vec3d{0, 0, 3.0}), 1e-6);
+  }
+}
+
+TEST(CorticalPulling, shortens_the_fiber_as_its_body_comes_closer) {
+  std::string const text = R"(
+    [fluid]
+    viscosity = 1.6
+    [periphery]
+    shape = "sphere"
+    radius = 8.0
+    [[body]]
+    name = "pnc"
+    shape = "sphere"
+    radius = 2.0
+    position = [0, 0, 0]
+    [[fiber]]
+    body = "pnc"
+    minus_end = "clamped"
+    growing = true
+    nodes = 10
+    position = [0, 0, 2]
+    direction = [0, 0, 1]
+    length = 5.5
+    [dynamic_instability]
+    catastrophe_rate = 0.0
+    [cortical_pulling]
+    positions = [[0, 0, 8.0]]
+    capture_rate = 1000.0
+    residence_time = 1e6
+    [run]
+    interactions = "local"
+    accuracy = 1e-4
+  )";
+  Simulation simulation(parse_scene(text, "t.toml"));
+  while (simulation.time() < 5.0) simulation.step(5.0);
+  double const z = simulation.bodies()[0].pose().position.z;
+  EXPECT_GT(z, 0.1);
+  EXPECT_NEAR(z + 2.0 + simulation.fibers().shape(0).length, 7.9, 1e-5);
+  // The pull drags the sphere and the fiber: 3 = (6 pi mu a + L / (2 c)) U.
+  double const length = simulation.fibers().shape(0).length;
+  double const drag = 6 * M_PI * 1.6 * 2.0 + length / (2 * slender_body_mobility(length, 0.0125, 1.6));
+  EXPECT_NEAR(simulation.bodies()[0].motion()[2], 3.0 / drag, 1e-3 * 3.0 / drag);
+}
+
+TEST(CorticalPulling, resumes_bit_for_bit_with_all_mechanisms) {
+  std::string const text = R"(
+    [periphery]
+    shape = "sphere"
+    radius = 6.0
+    [[body]]
+    name = "pnc"
+    shape = "sphere"
+    radius = 2.0
+    position = [0.5, 0, 0]
+    [[aster]]
+    body = "pnc"
+    position = [0, 2, 0]
+    opening = 80
+    count = 20
+    length = 3.0
+    nodes = 8
+    growing = true
+    [dynamic_instability]
+    rescue_rate = 0.1
+    [cytoplasmic_pulling]
+    [pushing]
+    sliding = "friction"
+    friction = 10.0
+    minimal_catastrophe_rate = 0.5
+    [cortical_pulling]
+    sites = 30
+    capture_rate = 0.2
+    residence_time = 1.0
+    dividing_body = "pnc"
+    [run]
+    interactions = "local"
+    accuracy = 1e-2
+    seed = 5
+  )";
+  Simulation whole(parse_scene(text, "t.toml")), resumed(parse_scene(text, "t.toml"));
+  while (whole.time() < 4.0) whole.step(4.0);
+  std::array<int, 5> n_state{};
+  for (std::size_t i = 0; i < 20; ++i) ++n_state[static_cast<int>(whole.tip_state(i))];
+  EXPECT_GT(n_state[static_cast<int>(TipState::pushing)], 0);
+  EXPECT_GT(n_state[static_cast<int>(TipState::captured)], 0);
+  resumed.restore(whole.time(), whole.restart());
+  for (int i = 0; i < 40; ++i) {
+    auto const a = whole.step(1e3), b = resumed.step(1e3);
+    ASSERT_EQ(a.time, b.time);
+    ASSERT_EQ(a.rejected, b.rejected);
+  }
+  EXPECT_EQ(whole.bodies()[0].state(), resumed.bodies()[0].state());
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(plus_end(whole.fibers().shape(i)), plus_end(resumed.fibers().shape(i)));
+}
