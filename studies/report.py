@@ -46,7 +46,8 @@ def section_of(folder, figure):
         return parts[0] + "<p>not run</p>"
     content = json.loads(record_file.read_text())
     settings = content["settings"]
-    parts.append(f"<p>{settings['fibers']} microtubules, seeds {settings['seeds']}{', quick' if settings['quick'] else ''}</p>")
+    words = [f"{settings['fibers']} microtubules", f"seeds {settings['seeds']}", *settings["set"], *["quick"] * settings["quick"]]
+    parts.append(f"<p>{html.escape(', '.join(words))}</p>")
     parts.append(f'<p><img src="{figure}.png" alt="{figure}"></p>' + table_of(content["records"]))
     return "".join(parts)
 

@@ -35,6 +35,7 @@ def parse_options(description):
     parser.add_argument("--fibers", type=int, help="microtubules, instead of the paper's 600")
     parser.add_argument("--end-time", type=float, help="s, at most, of every run")
     parser.add_argument("--seeds", type=int, nargs="+", help="instead of 1 2 3")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a scene key of all runs; part of their names")
     parser.add_argument("--drawing-only", action="store_true", help="draw what has been run so far, run nothing")
     options = parser.parse_args()
     options.fibers = options.fibers or (24 if options.quick else 600)
@@ -62,7 +63,8 @@ class Study:
         """Folder of the run of a scene to end_time (s), started or resumed as needed. `changes`: scene keys with __ for
         the dot, e.g. pushing__minimal_catastrophe_rate=0.1. What stops a run early is said and kept with it."""
         fibers = self.options.fibers
-        folder = self.folder / "runs" / f"{name}-n{fibers}-seed{seed}"
+        chosen = "".join(f"-{setting.split('.')[-1]}" for setting in self.options.set)
+        folder = self.folder / "runs" / f"{name}{chosen}-n{fibers}-seed{seed}"
         end_time = min(end_time, self.options.end_time)
         if self.options.drawing_only:
             return folder
@@ -71,6 +73,7 @@ class Study:
         settings |= {key.replace("__", "."): json.dumps(value) for key, value in changes.items()}
         if self.options.quick:
             settings["run.accuracy"] = 1e-2
+        settings |= dict(setting.split("=", 1) for setting in self.options.set)
         print(f"{self.figure}: {folder.name} to {end_time:g} s", flush=True)
         try:
             if not (folder / "trajectory.h5").exists():
@@ -121,7 +124,8 @@ class Study:
         """Saves the picture and the records."""
         path = self.folder / f"{self.figure}.png"
         picture.savefig(path, dpi=90, pil_kwargs={"optimize": True})
-        settings = {"fibers": self.options.fibers, "seeds": self.options.seeds, "quick": self.options.quick}
+        settings = {"fibers": self.options.fibers, "seeds": self.options.seeds, "quick": self.options.quick,
+                    "set": self.options.set}
         (self.folder / f"{self.figure}.json").write_text(
             json.dumps({"figure": self.figure, "settings": settings, "records": self.records}, indent=1))
         print(path)
