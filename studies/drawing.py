@@ -65,7 +65,7 @@ def draw_space(axis, run, time, semi_axes=(25.0, 15.0, 15.0), radius=5.0, limit=
     axis.plot_surface(*(sphere * radius + np.reshape(centre, (3, 1, 1))), color="0.8")
     axis.set(xlim=(-25, 25), ylim=(-15, 15), zlim=(-15, 15), title=time_stamp(stamp))
     axis.view_init(elev=18, azim=-75)
-    axis.set_box_aspect((50, 30, 30), zoom=1.5)
+    axis.set_box_aspect((50, 30, 30), zoom=1.2)
     axis.set_facecolor("0.25")
     axis.set_axis_off()
 

@@ -13,6 +13,7 @@ import argparse
 import csv
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -63,7 +64,7 @@ class Study:
         """Folder of the run of a scene to end_time (s), started or resumed as needed. `changes`: scene keys with __ for
         the dot, e.g. pushing__minimal_catastrophe_rate=0.1. What stops a run early is said and kept with it."""
         fibers = self.options.fibers
-        chosen = "".join(f"-{setting.split('.')[-1]}" for setting in self.options.set)
+        chosen = "".join("-" + re.sub(r"^.*\.(?=\w+=)", "", setting) for setting in self.options.set)
         folder = self.folder / "runs" / f"{name}{chosen}-n{fibers}-seed{seed}"
         end_time = min(end_time, self.options.end_time)
         if self.options.drawing_only:
