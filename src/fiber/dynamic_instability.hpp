@@ -46,7 +46,7 @@ class DynamicInstability {
     bool is_newborn = false;  // renucleated
     // Times after the beginning of the step, s: of reaching the cortex to push it, of capture, and of the end of a hold
     // (pushing or captured) that lasted since before.
-    std::optional<double> contact_at, captured_at, released_at;
+    std::optional<double> contact_at = {}, captured_at = {}, released_at = {};
     bool is_held() const { return state == TipState::pushing || state == TipState::captured; }
   };
 

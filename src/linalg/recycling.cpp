@@ -86,6 +86,14 @@ void Recycling::precondition(Vector r) const {
   });
 }
 
+void Recycling::learn(Directions const& w, Directions const& a_w, double cost) {
+  if (size() == 0) cost_without_ = cost;
+  if (size() > 0 && cost > 0.9 * cost_without_)
+    restore({}, {}, cost_without_);
+  else
+    learn(w, a_w);
+}
+
 void Recycling::learn(Directions const& w, Directions const& a_w) {
   if (images_.rows() != w.rows()) changes_.resize(w.rows(), 0), images_.resize(w.rows(), 0);
   Index const old = size(), all = old + w.cols();

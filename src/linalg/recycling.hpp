@@ -27,14 +27,24 @@ class Recycling {
   // span(U, w) with the largest |log(|A d| / |d|)|.
   void learn(Directions const& w, Directions const& a_w);
 
-  // U - C and C: all that a restart needs.
+  // After a solve: its candidates as in learn, and its cost in iterations per digit gained. What is remembered grows old as A
+  // changes: when it saves less than a tenth of what the last solve without it took, all is forgotten.
+  void learn(Directions const& w, Directions const& a_w, double cost);
+
+  // U - C, C and the cost of the last solve without them: all that a restart needs.
   Directions const& changes() const { return changes_; }
   Directions const& images() const { return images_; }
-  void restore(Directions changes, Directions images) { changes_ = std::move(changes), images_ = std::move(images); }
+  double cost_without() const { return cost_without_; }
+  void restore(Directions changes, Directions images, double cost_without) {
+    changes_ = std::move(changes);
+    images_ = std::move(images);
+    cost_without_ = cost_without;
+  }
 
  private:
   int capacity_;
   Directions changes_, images_;  // U - C and C
+  double cost_without_ = 0.0;
 };
 
 }  // namespace asterflow

@@ -12,7 +12,7 @@ struct CorticalPullingSpec {
   enum class Direction { fiber, normal };
 
   int sites = 100;               // >= 0, spread over the cortex at random, uniformly by area; or
-  std::vector<Vec3d> positions;  // um, of the sites, on the cortex
+  std::vector<Vec3d> positions = {};  // um, of the sites, on the cortex
   double pull_force = 3.0;       // pN, >= 0, outwards on a captured plus end
   Direction direction = Direction::fiber;  // of the pull: along the fiber's tangent or the cortex' outward normal
   double residence_time = 20.0;  // s, > 0: mean time until a captured plus end is let go
@@ -22,7 +22,7 @@ struct CorticalPullingSpec {
   Vec3d posterior{1, 0, 0};            // direction from the centre of the cell to its posterior pole
   double posterior_pole_factor = 1.5;  // capture rate over k at the posterior pole, >= 0
   double posterior_plane_factor = 0.5; // the same just posterior of the dividing plane; linear between, >= 0
-  std::string dividing_body;           // the plane goes through the centre of this body; or
+  std::string dividing_body = {};      // the plane goes through the centre of this body; or
   double dividing_plane = 0.0;         // um, fixed, along `posterior`
 };
 

@@ -14,7 +14,7 @@ struct PushingSpec {
   double stall_force = 4.4;               // F_P, pN, > 0: growth slows by e for each; also scales free sliding's force
   double range = 0.02;                    // d*, um, > 0: contact begins (free: the force decays) within it
   double minimal_catastrophe_rate = 0.2;  // f_min, 1/s, >= 0, at the cortex
-  std::optional<double> spring_stiffness; // K, pN/um, > 0, unless sliding is free; not given: 100 E / (body radius)^2
+  std::optional<double> spring_stiffness = {}; // K, pN/um, > 0, unless sliding is free; not given: 100 E / (body radius)^2
   double friction = 0.0;                  // zeta, pN s/um, > 0, only with sliding = "friction"
 };
 

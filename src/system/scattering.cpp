@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace asterflow {
 
@@ -64,11 +65,12 @@ class Recorder {
     outputs_.insert(outputs_.end(), output.begin(), output.end());
     ++count_;
   }
-  void teach(Recycling& memory) const {
+  void teach(Recycling& memory, double digits_gained) const {
     if (count_ == 0) return;
     Eigen::Index const n = static_cast<Eigen::Index>(inputs_.size()) / count_;
     memory.learn(Eigen::Map<Eigen::MatrixXf const>(inputs_.data(), n, count_),
-                 Eigen::Map<Eigen::MatrixXf const>(outputs_.data(), n, count_));
+                 Eigen::Map<Eigen::MatrixXf const>(outputs_.data(), n, count_),
+                 static_cast<double>(count_) / std::max(digits_gained, 0.5));
   }
 
  private:
@@ -106,7 +108,8 @@ GmresResult Scattering::correct(ConstVector residual, double reference, Vector c
   } else {
     result = solve_gmres(std::ref(equation), recall, residual, correction, options);
   }
-  if (memory_) equation.teach(*memory_);
+  double const initial = flat(as_points(residual)).norm() / reference;
+  if (memory_) equation.teach(*memory_, std::log10(initial / std::max(result.residual, 1e-300)));
   return result;
 }
 

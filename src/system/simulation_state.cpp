@@ -146,7 +146,8 @@ std::vector<NamedArray> Simulation::restart() const {
   append({NamedArray::of("flow/incident", last_.incident, "um/s"),
           NamedArray::of("flow/incident_before", before_.incident, "um/s"),
           NamedArray::of("flow/force_density", last_.force_density, "pN/um"),
-          directions("solver/changes", memory_.changes()), directions("solver/images", memory_.images())});
+          directions("solver/changes", memory_.changes()), directions("solver/images", memory_.images()),
+          numbers("solver/cost", {memory_.cost_without()})});
   return arrays;
 }
 
@@ -167,7 +168,8 @@ void Simulation::restore(double time, std::vector<NamedArray> const& arrays) {
   last_.incident = find_points(arrays, "flow/incident");
   before_.incident = find_points(arrays, "flow/incident_before");
   last_.force_density = find_points(arrays, "flow/force_density");
-  memory_.restore(find_directions(arrays, "solver/changes"), find_directions(arrays, "solver/images"));
+  memory_.restore(find_directions(arrays, "solver/changes"), find_directions(arrays, "solver/images"),
+                  find(arrays, "solver/cost").at(0));
 }
 
 }  // namespace asterflow

@@ -48,7 +48,7 @@ int iterations(Problem const& problem, Recycling& memory) {
   std::vector<double> x(n, 0.0);
   auto const result = solve_gmres(a, recall, {problem.b.data(), n}, x, {.tolerance = 1e-8});
   EXPECT_TRUE(result.converged);
-  memory.learn(inputs, outputs);
+  memory.learn(inputs, outputs, result.iterations / 8.0);
   return result.iterations;
 }
 
@@ -74,4 +74,13 @@ TEST(Recycling, does_nothing_to_vectors_of_another_size) {
   std::vector<double> other(10, 1.0);
   memory.precondition(other);
   EXPECT_EQ(other, std::vector<double>(10, 1.0));
+}
+
+TEST(Recycling, forgets_what_no_longer_helps) {
+  Recycling memory(12);
+  int const without = iterations(Problem(0.0), memory);
+  EXPECT_GT(iterations(Problem(0.5), memory), (9 * without) / 10);  // another problem
+  EXPECT_EQ(memory.size(), 0);
+  EXPECT_LE(iterations(Problem(0.5), memory), without + 2);
+  EXPECT_EQ(memory.size(), 12);
 }
