@@ -60,7 +60,7 @@ class FastSum final : public Evaluator {
     if (n_source_ == 0 || n_target_ == 0) return;
     int const components = kernel_ == FastKernel::stresslet ? 6 : 3;
     if (static_cast<long>(n_source_ + n_target_) > 2 * parameters_.capacity)
-      tree_ = best_octree(sources, targets, parameters_, components);
+      tree_ = std::make_unique<Octree>(sources, targets, best_plan(sources, targets, parameters_, components).octree);
     if (!tree_ || tree_->refined().empty()) {
       direct_ = make_direct(kernel_name_, {.accuracy = parameters_.accuracy, .gradient = parameters_.gradient});
       return direct_->set_points(sources, targets, normals);

@@ -19,11 +19,9 @@ struct FastParameters {
 
   bool gradient = false;      // whether gradients will be asked for
 
-  long capacity = 200;        // points of a leaf, mean of sources and targets
+  long capacity = 150;        // points of a leaf, mean of sources and targets; twice as many where that is cheaper
   double nodes_per_point;     // bounds the memory of a patch
   double batch_nodes = 1e6;   // of patches handled together, unless one alone is larger
-  double enlargement = 0.0;   // of the root over the points; 0: the cheapest is sought
-
   double max_nodes(std::size_t n_point) const;  // of one patch; n_point: mean of sources and targets
 };
 

@@ -1,6 +1,7 @@
 #pragma once
-// Choice of the octree: the side of its root decides, within a factor of two, the size of all boxes, hence how
-// the work divides between pairs and grids. A few sides are tried and the cheapest by a cost model is kept.
+// Choice of the octree by predicted cost: the side of its root decides, within a factor of two, the size of all
+// boxes, hence how the work divides between pairs and grids; the capacity of leaves its depth; the first level
+// what the one grid in free space covers.
 
 #include "backends/fast_parameters.hpp"
 #include "backends/fast_tree.hpp"
@@ -9,10 +10,12 @@
 
 namespace asterflow {
 
-// Predicted work of one sum, in nanoseconds of one core. The tree may hold one of every `thinning` points.
-double predicted_cost(Octree const& tree, FastParameters const& parameters, int components, double thinning = 1.0);
+struct Plan {
+  OctreeOptions octree;
+  double cost = 0.0;  // predicted, of one sum, in nanoseconds of one core
+};
 
-std::unique_ptr<Octree> best_octree(ConstPoints sources, ConstPoints targets, FastParameters const& parameters,
-                                    int components);
+// components: of the strengths on the grid.
+Plan best_plan(ConstPoints sources, ConstPoints targets, FastParameters const& parameters, int components);
 
 }  // namespace asterflow
