@@ -1,9 +1,10 @@
 // "auto": direct or fast sums, whichever is predicted to be cheaper for the points at hand. Direct sums cost a
-// time per pair, fast ones about a time per point; their ratio, the number of points at which both take
-// equally long, was measured with bench_evaluators (docs/summation.md) and depends little on the machine, since
-// both use its full vectors.
+// time per pair, fast ones what the plan of their octree predicts; both were measured in one run (bench_kernels,
+// bench_evaluators) and depend alike on the machine, since both use its full vectors. A table rather than a
+// timing: the same points give the same choice, hence the same bits, wherever and whenever.
 
 #include "backends/backend.hpp"
+#include "backends/fast_plan.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,18 +13,31 @@
 namespace asterflow {
 namespace {
 
-// Points at which both take equally long, at 3, 6, 9 and 12 digits; linear between.
-constexpr std::array stokeslet_crossover{5.0e3, 1.8e4, 2.4e4, 4.0e4};
-constexpr double other_kernels = 1.2;  // the same for them, relative to the Stokeslet
+// Nanoseconds of a pair on one core where targets are sources, at 3, 6, 9 and 12 digits; linear between.
+struct PairCosts {
+  std::string_view kernel;
+  std::array<double, 4> self;
+};
+constexpr std::array pair_costs{PairCosts{"stokeslet", {0.245, 0.28, 0.52, 0.54}},
+                                PairCosts{"stresslet", {0.28, 0.315, 0.60, 0.61}},
+                                PairCosts{"rotlet", {0.23, 0.27, 0.50, 0.51}}};
 
-// Direct sums share half of the work between the two directions of a pair where sources are targets.
-constexpr double separate_points = 1.6;
+// Direct sums share some of the work between the two directions of a pair where sources are targets.
+constexpr double separate_points = 1.33;
 
-double crossover(std::string_view kernel, double accuracy) {
+// What a fast sum costs besides its plan's prediction, per point: sorting and checking.
+constexpr double fast_point = 150.0;  // ns
+
+// Points below which fast sums are direct ones, and factor beyond the crossover of a uniform cloud where no plan
+// is needed to see which is cheaper.
+constexpr double fewest = 1000.0, clear = 4.0;
+
+double pair_cost(std::string_view kernel, double accuracy) {
   double const place = std::clamp(-std::log10(accuracy) / 3.0 - 1.0, 0.0, 2.999);
   int const i = static_cast<int>(place);
-  double const n = stokeslet_crossover[i] + (place - i) * (stokeslet_crossover[i + 1] - stokeslet_crossover[i]);
-  return kernel == "stokeslet" ? n : other_kernels * n;
+  for (PairCosts const& costs : pair_costs)
+    if (costs.kernel == kernel) return costs.self[i] + (place - i) * (costs.self[i + 1] - costs.self[i]);
+  return pair_costs[0].self[i];
 }
 
 class Automatic final : public Evaluator {
@@ -52,8 +66,15 @@ class Automatic final : public Evaluator {
     if (options_.accuracy < 1e-12) return false;
     bool const same = sources.data() == targets.data() && sources.size() == targets.size();
     double const n_source = static_cast<double>(sources.size()), n_target = static_cast<double>(targets.size());
-    double const direct = n_source * n_target * (same ? 1.0 : separate_points);
-    return direct > crossover(kernel_, options_.accuracy) * 0.5 * (n_source + n_target);
+    double const n = 0.5 * (n_source + n_target);
+    double const direct = n_source * n_target * pair_cost(kernel_, options_.accuracy) * (same ? 1.0 : separate_points);
+    double const digits = -std::log10(options_.accuracy);
+    double const usual = n * (90.0 * digits * digits + 400.0);  // ns, of a uniform cloud
+    if (n < fewest || direct * clear < usual) return false;
+    if (direct > clear * usual) return true;
+    Plan const plan = best_plan(sources, targets, fast_parameters(kernel_, options_.accuracy, options_.gradient),
+                                kernel_ == "stresslet" ? 6 : 3);
+    return direct > plan.cost + fast_point * n;
   }
 
   std::string kernel_;
