@@ -28,6 +28,14 @@ struct TipLoad {
   Vec3d anchor{};                       // um
 };
 
+// Force per length on one node of a fiber, pN/um: force - stiffness dX, implicit in the displacement dX of the node from its
+// predicted position. Internal: the body that holds the fiber exerts it and feels the opposite; dX is relative to it.
+struct NodeLoad {
+  Vec3d force{};                        // pN/um
+  Matrix3 stiffness = Matrix3::Zero();  // pN/um^2, symmetric, not negative
+  bool is_internal = false;
+};
+
 // Where the load of a step moves a plus end, and how a further force on it would.
 struct TipAnswer {
   Vec3d position{};                      // um

@@ -159,6 +159,7 @@ void FiberResponse::set_forcing(PointArray const& tangents, Eigen::Ref<Eigen::Ma
   int const n = step_.basis->n_node, m = step_.basis->n_tangent;
   std::array<Vec3d, max_fiber_nodes> force;
   for (int i = 0; i < n; ++i) force[i] = weights_[i] * (applied(i) - drag(i, velocity_[i]));
+  for (std::size_t i = 0; i < step_.node_loads.size(); ++i) force[i] += weights_[i] * step_.node_loads[i].force;
   forcing.noalias() = motions.transpose() * flat(ConstPoints(force.data(), n));
   Vec3d const tip = step_.tip.force - step_.tip.stiffness * (plus_end_ - step_.tip.anchor);
   forcing.noalias() += tip_motion_.transpose() * to_eigen(tip);
@@ -187,13 +188,14 @@ void FiberResponse::factorise(Centreline const& predicted) {
   lower_.resize(n_unknown_, n_unknown_);
   lower_.noalias() = rate_ * (drags.transpose() * motions);
   lower_.noalias() += tip_motion_.transpose() * step_.tip.stiffness * tip_motion_;
+  add_node_stiffness(motions, lower_);
   add_elasticity(lower_);
   add_tension_of_rotations(lower_);
 
   reduced_.resize(n_unknown_, 3 * n + 7);
   reduced_.leftCols(3 * n) = drags.transpose();
   set_forcing(predicted.tangents, motions, reduced_.col(3 * n));
-  set_body_columns();
+  set_body_columns(motions);
   Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> const llt(lower_);
   if (llt.info() != Eigen::Success)
     throw NumericalError("the implicit problem of a fiber is not positive definite (length " + std::to_string(length_) +
@@ -202,7 +204,7 @@ void FiberResponse::factorise(Centreline const& predicted) {
 }
 
 // Virtual work of the drag and of the spring at the plus end for the motion of the body; motions [3 n_node, 6], um.
-void FiberResponse::set_body_columns() {
+void FiberResponse::set_body_columns(Eigen::Ref<Eigen::MatrixXd const> unknown_motions) {
   int const n = step_.basis->n_node;
   auto columns = reduced_.rightCols<6>();
   columns.setZero();
@@ -215,6 +217,62 @@ void FiberResponse::set_body_columns() {
       columns.col(k) = tip_motion_.transpose() * (step_.tip.stiffness * to_eigen(body_motion(q, plus_end_)));
   }
   columns.noalias() += rate_ * (reduced_.leftCols(3 * n) * motions);
+  for (std::size_t i = 0; i < step_.node_loads.size(); ++i) {
+    Matrix3 const stiffness = weights_[i] * step_.node_loads[i].stiffness;
+    if (stiffness.isZero(0.0)) continue;
+    for (int k = 0; k < 6; ++k)
+      columns.col(k) += unknown_motions.middleRows<3>(3 * i).transpose() *
+                        (stiffness * to_eigen(relative_motion(i, Vector6::Unit(k))));
+  }
+}
+
+// Virtual work of the springs on the nodes.
+void FiberResponse::add_node_stiffness(Eigen::Ref<Eigen::MatrixXd const> motions,
+                                       Eigen::Ref<Eigen::MatrixXd> matrix) const {
+  for (std::size_t i = 0; i < step_.node_loads.size(); ++i) {
+    Matrix3 const stiffness = weights_[i] * step_.node_loads[i].stiffness;
+    if (stiffness.isZero(0.0)) continue;
+    auto const motion = motions.middleRows<3>(3 * i);
+    matrix.noalias() += motion.transpose() * (stiffness * motion);
+  }
+}
+
+// Of a node that moves with u + c (I + t t) f for one time level.
+Vec3d FiberResponse::displacement(int i, Vec3d u, Vec3d force) const {
+  Vec3d const velocity = u + step_.mobility * (force + dot(tangents_[i], force) * tangents_[i]);
+  return (1.0 / rate_) * velocity;
+}
+
+Vec3d FiberResponse::relative_motion(int i, Vector6 const& q) const {
+  Vec3d const motion = body_motion(q, nodes_[i]);
+  if (!step_.node_loads[i].is_internal) return motion;
+  BodyMotionMap const& body = *step_.body;
+  Vec3d const turn = to_vec3(body.turn_per_angular_velocity * q.tail<3>());
+  return motion - body.displacement_per_velocity * to_vec3(q.head<3>()) - cross(turn, nodes_[i] - body.predicted.position);
+}
+
+void FiberResponse::total_force(ConstPoints u, Vector6 const& q, Points f) const {
+  Vector6 no_load = Vector6::Zero();
+  add_affine(f, no_load);
+  add_linear(u, q, f, no_load);
+  for (std::size_t i = 0; i < f.size(); ++i) f[i] += step_.load.motor * tangents_[i];
+}
+
+void FiberResponse::node_positions(ConstPoints u, Vector6 const& q, Points positions) const {
+  std::array<Vec3d, max_fiber_nodes> force{};
+  total_force(u, q, Points(force.data(), positions.size()));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    positions[i] = nodes_[i] + displacement(i, u[i] - velocity_[i], force[i]);
+}
+
+Vec3d FiberResponse::node_force(int i, Vec3d u, Vector6 const& q, Vec3d total) const {
+  NodeLoad const& load = step_.node_loads[i];
+  Vec3d moved = displacement(i, u - velocity_[i], total);
+  if (load.is_internal) {
+    Vector6 const change = q - predicted_motion();
+    moved += relative_motion(i, change) - body_motion(change, nodes_[i]);
+  }
+  return load.force - load.stiffness * moved;
 }
 
 // -load of unit motions of the body, all six at once.
@@ -229,7 +287,9 @@ void FiberResponse::set_body_resistance() {
     Vector6 load = Vector6::Zero();
     for (int i = 0; i < n; ++i) {
       Vec3d const drag_work = weights_[i] * drag(i, body_motion(q, nodes_[i]));
-      add_body_load(nodes_[i], rate_ * (to_vec3(part.col(k).segment<3>(3 * i)) - drag_work), load);
+      Vec3d const force = rate_ * (drag_work - to_vec3(part.col(k).segment<3>(3 * i)));
+      add_body_load(nodes_[i], -force, load);
+      add_node_load(i, {}, (1.0 / weights_[i]) * force, load);
     }
     if (has_tip_spring()) add_spring_load(-reduced_.col(3 * n + 1 + k), q, load);
     body_resistance_.col(k) = -load;
@@ -316,7 +376,9 @@ void FiberResponse::add_linear(ConstPoints u, Vector6 const& q, Points f, Vector
   for (int i = 0; i < n; ++i) {
     change[i] -= drag(i, u[i]);
     f[i] += change[i];
-    if (step_.body) add_body_load(nodes_[i], -weights_[i] * change[i], load);
+    if (!step_.body) continue;
+    add_body_load(nodes_[i], -weights_[i] * change[i], load);
+    add_node_load(i, u[i], change[i], load);
   }
   if (step_.body && has_tip_spring()) add_spring_load(reduced, q, load);
 }
@@ -335,11 +397,22 @@ void FiberResponse::add_affine(Points f, Vector6& load) const {
   for (int i = 0; i < n; ++i) {
     total[i] += drag(i, velocity_[i]);
     f[i] += total[i] - step_.load.motor * tangents_[i];
-    if (step_.body) add_body_load(nodes_[i], weights_[i] * (applied(i) - total[i]), load);
+    if (!step_.body) continue;
+    add_body_load(nodes_[i], weights_[i] * (applied(i) - total[i]), load);
+    if (step_.node_loads.empty() || step_.node_loads[i].is_internal) continue;
+    add_body_load(nodes_[i], weights_[i] * step_.node_loads[i].force, load);
+    add_node_load(i, -velocity_[i], total[i], load);
   }
   if (!step_.body) return;
   add_body_load(plus_end_, step_.tip.force - step_.tip.stiffness * (plus_end_ - step_.tip.anchor), load);
   if (has_tip_spring()) add_spring_load(reduced, q, load);
+}
+
+// What the spring on a node does to the body when flow and force move the node.
+void FiberResponse::add_node_load(int i, Vec3d u, Vec3d force, Vector6& load) const {
+  if (step_.node_loads.empty() || step_.node_loads[i].is_internal) return;
+  Vec3d const moved = displacement(i, u, force);
+  add_body_load(nodes_[i], -weights_[i] * (step_.node_loads[i].stiffness * moved), load);
 }
 
 FiberResponse::Unknowns FiberResponse::unknowns(ConstPoints u, Vector6 const& q) const {
@@ -371,10 +444,11 @@ EndForces FiberResponse::internal_forces(ConstPoints u, Vector6 const& q, Centre
   FiberBasis const& basis = *step_.basis;
   int const n = basis.n_node;
   std::array<Vec3d, max_fiber_nodes> force{};  // per length, on the fluid
-  Vector6 no_load = Vector6::Zero();
-  add_affine(Points(force.data(), n), no_load);
-  add_linear(u, q, Points(force.data(), n), no_load);
-  for (int i = 0; i < n; ++i) force[i] -= step_.load.external;  // elastic part
+  total_force(u, q, Points(force.data(), n));
+  for (int i = 0; i < n; ++i) {  // elastic part
+    Vec3d const other = step_.node_loads.empty() ? Vec3d{} : node_force(i, u[i], q, force[i]);
+    force[i] -= applied(i) + other;
+  }
   Vec3d const tip = tip_force(u, q);
   for (int i = 0; i < n; ++i) {
     Vec3d internal = tip, tangent, bend;

@@ -20,6 +20,8 @@
 #include "fiber/fiber_basis.hpp"
 #include "fiber/fiber_ends.hpp"
 
+#include <span>
+
 namespace asterflow {
 
 // Everything a step of one fiber depends on.
@@ -32,6 +34,7 @@ struct FiberStep {
   BodyMotionMap const* body = nullptr;  // null: not attached
   FiberLoad load;
   TipLoad tip;
+  std::span<NodeLoad const> node_loads;  // [n_node] pN/um; empty: none
   ConstVector tension;  // [n_node] pN, of the step before; empty: none
 };
 
@@ -57,6 +60,8 @@ class FiberResponse {
 
   // The plus end at the new time level, and its compliance at fixed u and q.
   TipAnswer tip_answer(ConstPoints u, Vector6 const& q) const;
+  // The nodes at the new time level, um; overwritten.
+  void node_positions(ConstPoints u, Vector6 const& q, Points positions) const;
   // Force on the plus end, pN, at the new time level.
   Vec3d tip_force(ConstPoints u, Vector6 const& q) const;
   // tension [n_node], pN, overwritten: T = F . X_s - E |X_ss|^2, with the force F(s) that the part beyond s exerts.
@@ -76,12 +81,18 @@ class FiberResponse {
   void set_forcing(PointArray const& tangents, Eigen::Ref<Eigen::MatrixXd const> motions,
                    Eigen::Ref<Eigen::VectorXd> forcing) const;
   void factorise(Centreline const& predicted);
-  void set_body_columns();
+  void set_body_columns(Eigen::Ref<Eigen::MatrixXd const> motions);
+  void add_node_stiffness(Eigen::Ref<Eigen::MatrixXd const> motions, Eigen::Ref<Eigen::MatrixXd> matrix) const;
   void set_body_resistance();
   void set_load_of_flow();
   bool has_tip_spring() const;
+  void add_node_load(int i, Vec3d u, Vec3d force, Vector6& load) const;
   void add_spring_load(Unknowns response, Vector6 const& q, Vector6& load) const;
 
+  Vec3d displacement(int i, Vec3d u, Vec3d force) const;            // um, of a node by flow and force per length
+  Vec3d relative_motion(int i, Vector6 const& q) const;             // um, to what exerts the node's load
+  void total_force(ConstPoints u, Vector6 const& q, Points f) const;  // per length on the fluid, with the motors'
+  Vec3d node_force(int i, Vec3d u, Vector6 const& q, Vec3d total) const;  // of the node's load, pN/um
   Vec3d drag(int i, Vec3d velocity) const;                 // (1/c) (I - t t / 2) velocity
   Vec3d applied(int i) const;                              // external force and motors, pN/um
   Vec3d body_motion(Vector6 const& q, Vec3d point) const;  // change of the predicted point by the body's motion, um

@@ -147,10 +147,16 @@ void Fibers::prepare_again(std::size_t i, std::span<BodyMotionMap const> bodies)
                        .body = site.is_attached() ? &bodies[site.body] : nullptr,
                        .load = fiber.plan.load,
                        .tip = fiber.plan.tip,
+                       .node_loads = fiber.plan.node_loads,
                        .tension = fiber.plan.is_newborn ? ConstVector{} : ConstVector(fiber.tension)};
   std::size_t const first = first_node_[i], n = own.n_node;
   fiber.response.prepare(step, fiber.predicted, fiber.history, Points(nodes_).subspan(first, n),
                          Vector(weights_).subspan(first, n));
+}
+
+void Fibers::node_answer(std::size_t i, ConstPoints u, Vector6 const& q, Points positions) const {
+  Fiber const& fiber = fibers_[i];
+  fiber.response.node_positions(u.subspan(first_node_[i], fiber.properties.n_node), q, positions);
 }
 
 TipAnswer Fibers::tip_answer(std::size_t i, ConstPoints u, Vector6 const& q) const {
@@ -216,8 +222,15 @@ void Fibers::advance(ConstPoints u, std::span<Vector6 const> q, std::span<RigidP
 void Fibers::estimate_error(Fiber& fiber) const {
   fiber.error = 0.0;
   int const n_past = usable_past(fiber);
-  if (n_past < 2) return;
+  if (fiber.plan.is_newborn) return;
   sample(fiber.trial, fiber.coordinates, fiber.sampled, {});
+  if (n_past < 2) {  // nothing is known of its acceleration; what is linear about the predicted shape errs by the square
+    for (std::size_t i = 0; i < fiber.sampled.size(); ++i) {
+      Vec3d const moved = fiber.sampled[i] - fiber.extrapolated[i];
+      fiber.error = std::max(fiber.error, 0.5 * dot(moved, moved) / fiber.trial.length);
+    }
+    return;
+  }
   double const factor = n_past < 3 ? 1.0 / 3.0 : milne_factor(dt_, dt_1_, dt_2_);
   for (std::size_t i = 0; i < fiber.sampled.size(); ++i)
     fiber.error = std::max(fiber.error, factor * norm(fiber.sampled[i] - fiber.extrapolated[i]));
@@ -235,7 +248,7 @@ void Fibers::accept() {
       std::swap(fiber.past[0], fiber.newborn);
       fiber.n_past = 1;
     }
-    if (fiber.plan.has_jump) fiber.n_past = 1;
+    if (fiber.plan.has_jump) fiber.n_past = 0;  // neither does its velocity in this step say what comes
     fiber.site = fiber.plan.site;
     std::swap(fiber.past[2], fiber.past[1]);
     std::swap(fiber.past[1], fiber.past[0]);

@@ -37,6 +37,7 @@ class Fibers {
     FiberLoad load;
     TipLoad tip;
     MinusEndSite site;
+    std::vector<NodeLoad> node_loads = {};  // [n_node] or none
     bool is_newborn = false;  // start again as a straight fiber at `site`, wherever it was before
     bool has_jump = false;    // of its load: the velocities before say nothing about those after
   };
@@ -60,6 +61,7 @@ class Fibers {
   void prepare_again(std::size_t fiber, std::span<BodyMotionMap const> bodies);
   Centreline const& predicted_shape(std::size_t fiber) const { return fibers_[fiber].predicted; }
   // For a given incident flow u [n_node] and motion q of the body that holds the fiber.
+  void node_answer(std::size_t fiber, ConstPoints u, Vector6 const& q, Points positions) const;  // overwritten, um
   TipAnswer tip_answer(std::size_t fiber, ConstPoints u, Vector6 const& q) const;
 
   ConstPoints nodes() const { return nodes_; }      // [n_node] um, predicted for the end of the step
@@ -77,7 +79,7 @@ class Fibers {
 
   // Trial shapes from the solution and the bodies' poses at the end of the step.
   void advance(ConstPoints u, std::span<Vector6 const> q, std::span<RigidPose const> poses);
-  // Largest local error of a node's position in the trial step, um; fibers in their first step do not count.
+  // Largest local error of a node's position in the trial step, um; newborn fibers do not count.
   double error_estimate() const;
   void accept();
 

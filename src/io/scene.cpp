@@ -18,6 +18,7 @@ Scene read_all(Table root) {
   auto const background = root.find_table("background");
   auto const instability = root.find_table("dynamic_instability");
   auto const cytoplasmic_pulling = root.find_table("cytoplasmic_pulling");
+  auto const steric_repulsion = root.find_table("steric_repulsion");
   SceneTables const tables{root.tables("body"), root.tables("fiber"), root.tables("aster"), root.table("drag"), root.find_table("pushing"),
                            root.find_table("cortical_pulling")};
   Table const fluid = root.table("fluid"), run = root.table("run"), output = root.table("output");
@@ -31,6 +32,7 @@ Scene read_all(Table root) {
   if (background) scene.background = read_background(*background);
   if (instability) scene.dynamic_instability = read_dynamic_instability(*instability);
   if (cytoplasmic_pulling) scene.cytoplasmic_pulling = read_cytoplasmic_pulling(*cytoplasmic_pulling);
+  if (steric_repulsion) scene.steric_repulsion = read_steric_repulsion(*steric_repulsion);
   if (tables.pushing) scene.pushing = read_pushing(*tables.pushing);
   if (tables.cortical_pulling) scene.cortical_pulling = read_cortical_pulling(*tables.cortical_pulling);
   for (auto const& body : tables.bodies) scene.bodies.push_back(read_body(body, scene.bodies.size() + 1));

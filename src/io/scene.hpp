@@ -3,7 +3,7 @@
 // not have leaves an empty list or no value, and nothing is built from it. Lengths in um, times in s, forces in pN.
 //
 //   [fluid] [background] [periphery] [[body]] [[fiber]] [[aster]] [dynamic_instability] [cytoplasmic_pulling]
-//   [pushing] [cortical_pulling] [run] [output] [drag]
+//   [pushing] [cortical_pulling] [steric_repulsion] [run] [output] [drag]
 
 #include "background/background_spec.hpp"
 #include "body/body_spec.hpp"
@@ -16,6 +16,7 @@
 #include "mechanism/cortical_pulling_spec.hpp"
 #include "mechanism/cytoplasmic_pulling_spec.hpp"
 #include "mechanism/pushing_spec.hpp"
+#include "mechanism/steric_repulsion_spec.hpp"
 #include "periphery/periphery_spec.hpp"
 
 #include <optional>
@@ -38,6 +39,7 @@ struct Scene {
   std::optional<CytoplasmicPullingSpec> cytoplasmic_pulling;
   std::optional<PushingSpec> pushing;                  // of growing plus ends against the cortex
   std::optional<CorticalPullingSpec> cortical_pulling;
+  std::optional<StericRepulsionSpec> steric_repulsion;
 
   std::string file;                    // as the user wrote it
   std::string text;                    // all of it, kept with the trajectory

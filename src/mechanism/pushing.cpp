@@ -54,7 +54,10 @@ void Pushing::surround(std::size_t tip, double rate_without_load, double compres
     return std::max(rate_without_load / factor, spec_.minimal_catastrophe_rate);
   };
   surroundings.can_push = true;
-  surroundings.pushing_growth_factor = 0.5 * (before + after);
+  // Exact for a compression that grows in proportion to the length, however stiff: with x = change of F_c / F_P,
+  // mean V_g / V_g0 = exp(-F_c / F_P) x / (exp(x) - 1).
+  double const x = (compression - now_[tip].compression) / spec_.stall_force;
+  surroundings.pushing_growth_factor = before * (std::abs(x) < 1e-6 ? 1 - 0.5 * x : x / std::expm1(x));
   surroundings.pushing_catastrophe_rate = 0.5 * (rate(before) + rate(after));
 }
 
@@ -62,11 +65,12 @@ void Pushing::surround(std::size_t tip, double rate_without_load, TipSurrounding
   surround(tip, rate_without_load, now_[tip].compression, surroundings);
 }
 
-void Pushing::make_contact(std::size_t tip, Vec3d reached) {
-  trial_[tip] = {.is_made = true, .anchor = cortex_.at_distance(reached, contact_distance())};
+void Pushing::make_contact(std::size_t tip, Vec3d reached, double left) {
+  trial_[tip] = {.is_made = true, .anchor = cortex_.at_distance(reached, contact_distance()), .sliding_time = left};
 }
 
 TimeScheme Pushing::scheme(Contact const& contact, double dt) const {
+  if (contact.sliding_time > 0) return backward_euler(contact.sliding_time);
   return contact.has_before ? second_order_scheme(dt, dt_before_) : backward_euler(dt);
 }
 
@@ -82,7 +86,7 @@ TipLoad Pushing::spring(std::size_t tip, double dt) const {
     return {{}, k * Matrix3::Identity() + (across - k) * n * n.transpose(), contact.anchor};
   TimeScheme const scheme = this->scheme(contact, dt);
   Vec3d const history = (1.0 / scheme.a0) * (scheme.a1 * contact.anchor + scheme.a2 * contact.anchor_before);
-  double const along = k / (1 + k * dt / (scheme.a0 * spec_.friction));
+  double const along = k / (1 + k * scheme.dt / (scheme.a0 * spec_.friction));
   Matrix3 const normal = n * n.transpose();
   Vec3d const anchor = history - normal * (history - expected);
   return {{}, across * normal + along * (Matrix3::Identity() - normal), anchor};
@@ -121,7 +125,7 @@ void Pushing::advance(std::size_t tip, bool is_pushing, Vec3d force, Vec3d posit
   Vec3d anchor = contact.anchor;
   if (spec_.sliding == Sliding::friction) {
     TimeScheme const scheme = this->scheme(contact, dt);
-    double const k = stiffness_[tip] * dt / spec_.friction;
+    double const k = stiffness_[tip] * scheme.dt / spec_.friction;
     Vec3d const history = scheme.a1 * contact.anchor + scheme.a2 * contact.anchor_before;
     anchor = cortex_.at_distance((1.0 / (scheme.a0 + k)) * (history + k * position), contact_distance());
   }

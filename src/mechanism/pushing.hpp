@@ -7,7 +7,7 @@
 //   free sliding   F = -F_P exp(-d / d*) (n . X_s) n, zero for a tip that points inwards
 //   growth         V_g = V_g0 exp(-F_c / F_P), F_c = max(0, -F . X_s); f_cat = max(f_cat0 V_g0 / V_g, f_min)  [Eq. 7]
 // Implicit: the new length and the force on the tip are solved together for each fiber, with the flow and the motion of
-// its body extrapolated; the step then takes the force linear about that solution. Rates are trapezoidal means.
+// its body extrapolated; the step then takes the force linear about that solution.
 
 #include "base/time_scheme.hpp"
 #include "fiber/dynamic_instability.hpp"
@@ -31,8 +31,8 @@ class Pushing {
   void surround(std::size_t tip, double rate_without_load, double compression, TipSurroundings& surroundings) const;
   void surround(std::size_t tip, double rate_without_load, TipSurroundings& surroundings) const;  // as before the step
 
-  // Where a tip that has made contact in this step is held; `reached`: where it was then.
-  void make_contact(std::size_t tip, Vec3d reached);
+  // Holds a tip that has made contact in this step; `reached`: where it was then, `left`: of the step after that, s.
+  void make_contact(std::size_t tip, Vec3d reached, double left);
   // What remains, on average over the step, of the force on a tip that was let go at a fraction of it, pN.
   Vec3d last_force(std::size_t tip, double fraction) const { return fraction * now_[tip].force; }
 
@@ -54,6 +54,7 @@ class Pushing {
     Vec3d anchor{}, anchor_before{};  // um
     Vec3d force{};                    // pN, on the tip
     double compression = 0.0;         // pN
+    double sliding_time = 0.0;        // s, of the step in which contact was made
   };
 
   TimeScheme scheme(Contact const& contact, double dt) const;

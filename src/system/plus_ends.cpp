@@ -11,6 +11,15 @@ namespace {
 // A tip is met by the cortex as by its tangent plane, along the tangent of the fiber; below this slope it grows along it.
 constexpr double least_slope = 0.05;
 
+// Growth is exact for a compression that is linear in the length; a compression linear in time would make the mean growth
+// the logarithmic one. This share of the difference counts as error: errors of the length relax in the contact.
+constexpr double error_share = 0.1;
+
+double logarithmic_mean(double a, double b) {
+  double const ratio = a / b;
+  return std::abs(ratio - 1) < 1e-6 ? 0.5 * (a + b) : (a - b) / std::log(ratio);
+}
+
 std::vector<Vector6> predicted_motions(std::span<BodyMotionMap const> bodies) {
   std::vector<Vector6> motions;
   for (auto const& body : bodies)
@@ -107,7 +116,8 @@ void PlusEnds::plan_loads(std::size_t i, Fibers& fibers) {
   if (trial.contact_at && trial.state == TipState::pushing) {
     Centreline const& shape = fibers.shape(trial.fiber);
     pushing_->make_contact(
-        i, plus_end(shape) + (growth_.spec().growth_speed * *trial.contact_at) * shape.tangents.back());
+        i, plus_end(shape) + (growth_.spec().growth_speed * *trial.contact_at) * shape.tangents.back(),
+        dt_ - *trial.contact_at);
   }
 }
 
@@ -142,7 +152,10 @@ double PlusEnds::pushing_length(std::size_t i, TipAnswer const& answer, Vec3d ta
     pushing_->surround(i, growth_.spec().catastrophe_rate, compression, around);
     return planned + pushed * (around.pushing_growth_factor - planned_factor) - length;
   };
-  return root(excess, planned - pushed * planned_factor, planned + pushed * (1.0 - planned_factor), 1e-9);
+  TipSurroundings unloaded;
+  pushing_->surround(i, growth_.spec().catastrophe_rate, 0.0, unloaded);
+  return root(excess, planned - pushed * planned_factor,
+              planned + pushed * (unloaded.pushing_growth_factor - planned_factor), 1e-9);
 }
 
 void PlusEnds::hold_pushing(std::size_t i, Fibers& fibers, TipAnswer const& answer) {
@@ -155,10 +168,10 @@ void PlusEnds::hold_pushing(std::size_t i, Fibers& fibers, TipAnswer const& answ
   double const compression = std::max(0.0, -dot(balanced_force(load, position, answer.compliance), tangent));
   TipSurroundings around = surroundings_[i];
   pushing_->surround(i, growth_.spec().catastrophe_rate, compression, around);
-  // The error of the trapezoidal rule for V = V_g0 / (1 + t / tau), as of a stiff contact: dt^3 V'' / 12, V'' = 2 V'^2 / V_g0.
-  double const change = 2 * (around.pushing_growth_factor - pushing_->growth_factor_before(i));
   double const pushed = dt_ - trial.contact_at.value_or(0.0);
-  errors_[i] = pushed * growth_.spec().growth_speed * change * change / 6;
+  errors_[i] = error_share * pushed * growth_.spec().growth_speed *
+               std::abs(around.pushing_growth_factor - logarithmic_mean(pushing_->growth_factor_before(i),
+                                                                        pushing_->growth_factor(compression)));
   growth_.set_trial(i, growth_.advanced(i, dt_, around));
   growth_.plan(fibers, i);
   if (trial.state != TipState::pushing) return;  // the load brought its catastrophe into the step

@@ -51,6 +51,12 @@ Simulation::Simulation(Scene scene)
   for (auto const& body : scene_.bodies) bodies_.emplace_back(body);
   if (scene_.background) background_.emplace(*scene_.background);
   if (scene_.cytoplasmic_pulling) cytoplasmic_pulling_.emplace(*scene_.cytoplasmic_pulling, scene_.fluid.viscosity);
+  if (scene_.steric_repulsion) {
+    std::vector<std::shared_ptr<Shape const>> shapes;
+    for (auto const& body : scene_.bodies) shapes.push_back(make_shape(body.shape));
+    steric_repulsion_.emplace(*scene_.steric_repulsion,
+                              scene_.periphery ? make_shape(scene_.periphery->shape) : nullptr, std::move(shapes));
+  }
   if (scene_.dynamic_instability) plus_ends_.emplace(scene_);
   add_scene_fibers(scene_, fibers_, plus_ends_);
   radiation_ = make_radiation(scene_, flows_);
@@ -73,12 +79,13 @@ void Simulation::plan_fibers(double dt) {
   plus_ends_->plan(dt, fibers_, poses, motions);
 }
 
-// Those that the cortex holds, for the incident flow that is expected.
-void Simulation::hold_plus_ends(double dt, std::vector<BodyMotionMap> const& maps) {
-  if (!plus_ends_) return;
+// Contacts of the fibers, for the incident flow that is expected.
+void Simulation::hold_fibers(double dt, std::vector<BodyMotionMap> const& maps) {
+  if (!plus_ends_ && !steric_repulsion_) return;
   PointArray u = guess(dt);
   u.resize(fibers_.node_count());
-  plus_ends_->hold(fibers_, u, maps);
+  if (plus_ends_) plus_ends_->hold(fibers_, u, maps);
+  if (steric_repulsion_) steric_repulsion_->hold(fibers_, u, maps);
 }
 
 TipState Simulation::tip_state(std::size_t fiber) const { return plus_ends_ ? plus_ends_->state_of(fiber) : TipState::still; }
@@ -101,6 +108,11 @@ std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps
       Vector6 carried;
       carried << to_eigen(background_->velocity(drive.pose.position)), to_eigen(background_->rotation());
       drive.value += drive.resistance * carried;
+    }
+    if (steric_repulsion_ && body.is_free()) {
+      ContactLoad const contact = steric_repulsion_->on_body(b, maps[b]);
+      drive.resistance += contact.resistance;
+      drive.value += contact.load;
     }
     drives.push_back(drive);
   }
@@ -190,7 +202,7 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   for (auto& body : bodies_) maps.push_back(body.predict(dt));
   plan_fibers(dt);
   fibers_.prepare(dt, maps);
-  hold_plus_ends(dt, maps);
+  hold_fibers(dt, maps);
   trial.misplaced = misplaced_prediction(maps);
   report.prepare_seconds += timer.seconds();
   if (!trial.misplaced.empty()) return trial;

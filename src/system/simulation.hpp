@@ -12,6 +12,7 @@
 #include "fiber/fibers.hpp"
 #include "io/scene.hpp"
 #include "mechanism/cytoplasmic_pulling.hpp"
+#include "mechanism/steric_repulsion.hpp"
 #include "system/flows.hpp"
 #include "system/placement.hpp"
 #include "system/plus_ends.hpp"
@@ -72,7 +73,7 @@ class Simulation {
   std::vector<NamedArray> fiber_frame() const;
   std::vector<NamedArray> fiber_end_frame() const;
   void plan_fibers(double dt);
-  void hold_plus_ends(double dt, std::vector<BodyMotionMap> const& maps);
+  void hold_fibers(double dt, std::vector<BodyMotionMap> const& maps);
   std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps) const;
   Trial attempt(double dt, StepReport& report);
   ScatteringSolution solve(double dt, std::vector<BodyMotionMap> const& maps, StepReport& report);
@@ -87,6 +88,7 @@ class Simulation {
   std::vector<RigidBody> bodies_;
   Fibers fibers_;
   std::optional<PlusEnds> plus_ends_;
+  std::optional<StericRepulsion> steric_repulsion_;
   std::optional<CytoplasmicPulling> cytoplasmic_pulling_;
   Placement placement_;
   std::optional<BackgroundFlow> background_;

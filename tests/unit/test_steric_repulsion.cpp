@@ -1,0 +1,157 @@
+#include "mechanism/steric_repulsion.hpp"
+
+#include "base/error.hpp"
+#include "fiber/fiber_basis.hpp"
+#include "system/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace asterflow;
+
+namespace {
+
+std::unique_ptr<Simulation> simulated(std::string const& scene, double end) {
+  auto simulation = std::make_unique<Simulation>(parse_scene(scene, "test.toml"));
+  while (simulation->time() < end) simulation->step(end);
+  return simulation;
+}
+
+// Sum over the nodes of the repulsion by a sphere around the origin, pN, as the law gives it.
+Vec3d repulsion_in_sphere(Fibers const& fibers, double radius, double force, double range) {
+  Centreline const& shape = fibers.shape(0);
+  auto const& rule = fiber_basis(fibers.properties(0).n_node).gauss;
+  Vec3d sum;
+  for (Eigen::Index i = 0; i < rule.nodes.size(); ++i) {
+    double const s = rule.nodes[i] * shape.length;
+    Vec3d position;
+    sample(shape, {&s, 1}, {&position, 1}, {});
+    double const distance = radius - norm(position);
+    if (distance < range) sum -= (rule.weights[i] * shape.length * force * (1 - distance / range)) * normalized(position);
+  }
+  return sum;
+}
+
+// A sphere with a fiber clamped on it; the fiber is pressed against the wall and along the sphere.
+std::string pressed_scene(std::string const& more) {
+  return R"(
+    [fluid]
+    viscosity = 0.6
+    [periphery]
+    shape = "sphere"
+    radius = 5.0
+    [[body]]
+    name = "pnc"
+    shape = "sphere"
+    radius = 2.0
+    position = [0.0, 0.0, 0.0]
+    force = [0.0, 0.0, 10.0]
+    [[fiber]]
+    body = "pnc"
+    position = [0.0, 0.0, 2.0]
+    direction = [0.6, 0.1, 1.0]
+    length = 3.1
+    nodes = 12
+    minus_end = "clamped"
+    force_density = [1.0, 0.0, -1.0]
+    [steric_repulsion]
+    range = 0.1
+    [run]
+    interactions = "local"
+    accuracy = 1e-4
+  )" + more;
+}
+
+}  // namespace
+
+TEST(StericRepulsion, fiber_comes_to_rest_where_it_balances_the_load) {
+  auto const simulation = simulated(R"(
+    [fluid]
+    viscosity = 0.6
+    [periphery]
+    shape = "sphere"
+    radius = 4.0
+    [[fiber]]
+    position = [-1.0, 0.0, 3.7]
+    direction = [1.0, 0.0, 0.0]
+    length = 2.0
+    force_density = [0.0, 0.0, 3.0]
+    [steric_repulsion]
+    range = 0.08
+    fiber_force = 20.0
+    [run]
+    interactions = "local"
+    accuracy = 1e-3
+  )", 60.0);
+  Vec3d const repulsion = repulsion_in_sphere(simulation->fibers(), 4.0, 20.0, 0.08);
+  EXPECT_LT(norm(repulsion + simulation->fibers().ends(0).plus_end + Vec3d{0, 0, 6.0}), 0.02 * 6.0);
+}
+
+TEST(StericRepulsion, body_comes_to_rest_where_it_balances_the_load) {
+  auto const simulation = simulated(R"(
+    [fluid]
+    viscosity = 0.6
+    [periphery]
+    shape = "ellipsoid"
+    semi_axes = [6.0, 4.0, 4.0]
+    [[body]]
+    shape = "sphere"
+    radius = 1.0
+    position = [4.0, 0.0, 0.0]
+    force = [30.0, 0.0, 0.0]
+    [steric_repulsion]
+    range = 0.1
+    body_force = 100.0
+    [run]
+    interactions = "local"
+  )", 20.0);
+  EXPECT_NEAR(simulation->bodies()[0].pose().position.x, 5.0 - 0.07, 1e-5);  // 30 = 100 (1 - gap / 0.1)
+}
+
+TEST(StericRepulsion, forces_and_torques_on_the_body_balance_its_drag) {
+  Simulation simulation(parse_scene(pressed_scene(""), "test.toml"));
+  for (int i = 0; i < 200 && simulation.time() < 5.0; ++i) simulation.step(5.0);
+  ASSERT_LT(norm(plus_end(simulation.fibers().shape(0))), 5.05);
+  EXPECT_GT(norm(repulsion_in_sphere(simulation.fibers(), 5.0, 10.0, 0.1)), 0.02);
+  RigidBody const& body = simulation.bodies()[0];
+  RigidPose const& pose = body.motion_map().predicted;
+  auto const& ends = simulation.fibers().ends(0);
+  Vec3d const arm = pose.rotation * simulation.fibers().site(0).position;
+  Vector6 load;
+  load << to_eigen(ends.minus_end), to_eigen(ends.minus_end_torque + cross(arm, ends.minus_end));
+  Vector6 const balance = load + body.external_load() - simulation.resistance_alone(0, pose) * body.motion();
+  EXPECT_LT(balance.norm(), 1e-9 * load.norm());
+}
+
+TEST(StericRepulsion, body_holds_off_its_own_fiber) {
+  auto const turned_in = [](bool repels) {
+    std::string text = pressed_scene("end_time = 1.0\n[output]\n");
+    text.replace(text.find("range = 0.1"), 11, std::string("range = 0.1\nfiber_force = 200.0\nfiber_body = ") + (repels ? "true" : "false"));
+    text.replace(text.find("[1.0, 0.0, -1.0]"), 16, "[0.0, 0.0, -30.0]");
+    text.replace(text.find("[0.6, 0.1, 1.0]"), 15, "[1.0, 0.0, 0.2]");
+    text.replace(text.find("length = 3.1"), 12, "length = 1.6");
+    text.replace(text.find("force = [0.0, 0.0, 10.0]"), 24, "motion = \"prescribed\"");
+    Simulation simulation(parse_scene(text, "test.toml"));
+    for (int i = 0; i < 1000 && simulation.time() < 5.0; ++i) simulation.step(5.0);
+    Vec3d const centre = simulation.bodies()[0].pose().position;
+    double least = 1e9;
+    for (double s = 0.5; s <= 1.6; s += 0.1) {
+      Vec3d x;
+      sample(simulation.fibers().shape(0), {&s, 1}, {&x, 1}, {});
+      least = std::min(least, norm(x - centre) - 2.0);
+    }
+    return least;
+  };
+  EXPECT_LT(turned_in(false), -0.1);
+  EXPECT_GT(turned_in(true), -0.02);
+}
+
+TEST(StericRepulsion, of_wrong_sign_is_refused) {
+  std::string text = pressed_scene("");
+  text.replace(text.find("range = 0.1"), 11, "range = -0.1");
+  try {
+    parse_scene(text, "test.toml");
+    FAIL();
+  } catch (SceneError const& error) {
+    EXPECT_NE(std::string(error.what()).find("[steric_repulsion]: range = -0.1"), std::string::npos) << error.what();
+  }
+}
