@@ -51,6 +51,16 @@ SphereImage Ellipsoid::image(Vec3d d) const {
   return {{axes_.x * d.x, axes_.y * d.y, axes_.z * d.z}, Eigen::Vector3d(axes_.x, axes_.y, axes_.z).asDiagonal()};
 }
 
+void Ellipsoid::sample(Columns const& d, Columns& positions, Columns& areas) const {
+  double const product = axes_.x * axes_.y * axes_.z;
+  positions.resize(d.rows(), 3);
+  areas.resize(d.rows(), 3);
+  for (int i = 0; i < 3; ++i) {
+    positions.col(i) = axes_[i] * d.col(i);
+    areas.col(i) = product / axes_[i] * d.col(i);
+  }
+}
+
 ClosestPoint Ellipsoid::closest_point(Vec3d x) const {
   Vec3d const a = axes_;
   double const t = lagrange_multiplier(a, x);

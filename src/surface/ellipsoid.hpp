@@ -11,6 +11,7 @@ class Ellipsoid : public Shape {
 
   bool axisymmetric() const override;
   SphereImage image(Vec3d direction) const override;
+  void sample(Columns const& directions, Columns& positions, Columns& areas) const override;
   ClosestPoint closest_point(Vec3d x) const override;
   ShellPoint shell_point(Vec3d x) const override;
   double size() const override;

@@ -15,22 +15,25 @@ constexpr double pi = std::numbers::pi;
 constexpr int n_entry = 6;  // xx, xy, xz, yy, yz, zz
 constexpr int entry_of[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
 
-void write_entries(Vec3d r, double factor, Eigen::Ref<Eigen::Matrix<double, 1, n_entry>, 0, Eigen::InnerStride<>> row) {
-  row << factor * r.x * r.x, factor * r.x * r.y, factor * r.x * r.z, factor * r.y * r.y, factor * r.y * r.z,
-      factor * r.z * r.z;
+// Columns 1, cos phi ... cos p phi, sin phi ... sin p phi, from those of 1.
+void fill_trigonometric(int order, MatrixXd& basis) {
+  basis.col(0).setOnes();
+  auto const c1 = basis.col(1).array(), s1 = basis.col(order + 1).array();
+  for (int m = 1; m < order; ++m) {
+    auto const c = basis.col(m).array(), s = basis.col(order + m).array();
+    basis.col(m + 1).array() = c * c1 - s * s1;
+    basis.col(order + m + 1).array() = s * c1 + c * s1;
+  }
 }
 
-// Columns 1, cos phi ... cos p phi, sin phi ... sin p phi.
-void trigonometric_row(double phi, int order, MatrixXd& basis, Eigen::Index row) {
-  double const c1 = std::cos(phi), s1 = std::sin(phi);
-  double c = 1.0, s = 0.0;
-  for (int m = 0; m <= order; ++m) {
-    basis(row, m) = c;
-    if (m > 0) basis(row, order + m) = s;
-    double const next = c * c1 - s * s1;
-    s = s * c1 + c * s1;
-    c = next;
+MatrixXd trigonometric(std::vector<double> const& phi, int order) {
+  MatrixXd basis(phi.size(), 2 * order + 1);
+  for (std::size_t k = 0; k < phi.size(); ++k) {
+    basis(k, 1) = std::cos(phi[k]);
+    basis(k, order + 1) = std::sin(phi[k]);
   }
+  fill_trigonometric(order, basis);
+  return basis;
 }
 
 int mode_of_column(int column, int order) { return column <= order ? column : column - order; }
@@ -47,9 +50,9 @@ GeneralRows::GeneralRows(Surface const& surface, double digits)
     legendre_polynomials(std::cos(grid.polar_angles()[j]), order_, values.data());
     for (int l = 0; l < n; ++l) nodes_to_legendre_(l, j) = grid.ring_weights()[j] * (l + 0.5) * values[l];
   }
-  MatrixXd basis(n_azimuth, 2 * order_ + 1);
-  for (int k = 0; k < n_azimuth; ++k) trigonometric_row(grid.azimuth(k), order_, basis, k);
-  modes_to_nodes_ = 2.0 / n_azimuth * basis.transpose();
+  std::vector<double> phi;
+  for (int k = 0; k < n_azimuth; ++k) phi.push_back(grid.azimuth(k));
+  modes_to_nodes_ = 2.0 / n_azimuth * trigonometric(phi, order_).transpose();
   modes_to_nodes_.row(0) *= 0.5;
 }
 
@@ -78,37 +81,63 @@ double GeneralRows::closest_azimuth(Vec3d target, Grading::PolarAngle ring, doub
   return phi;
 }
 
+// Work space of one ring of the quadrature.
+struct GeneralRows::Ring {
+  std::vector<RulePoint> rule;
+  Eigen::ArrayXd cosines, sines, weights, factor;
+  Surface::RingSample sample;
+  MatrixXd basis, kernel;  // [point, 2 p + 1], [point, entry]
+};
+
+// Kernel entries against all trigonometric functions of one ring: [2 p + 1, entry].
+void GeneralRows::integrate_ring(Vec3d target, Grading::PolarAngle angle, double weight, Ring& ring,
+                                 Eigen::Ref<MatrixXd> result) const {
+  auto const n = static_cast<Eigen::Index>(ring.rule.size());
+  ring.cosines.resize(n);
+  ring.sines.resize(n);
+  ring.weights.resize(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    ring.cosines[k] = std::cos(ring.rule[k].x);
+    ring.sines[k] = std::sin(ring.rule[k].x);
+    ring.weights[k] = ring.rule[k].weight;
+  }
+  surface_.sample_ring(angle, ring.cosines, ring.sines, ring.sample);
+  Shape::Columns& r = ring.sample.positions;  // becomes y - target: the kernel is even but for the flux
+  Shape::Columns const& area = ring.sample.areas;
+  for (int i = 0; i < 3; ++i) r.col(i) -= target[i];
+  ring.factor = (r.square().rowwise().sum()).inverse();
+  ring.factor *= ring.factor * ring.factor.sqrt();
+  ring.factor *= 3.0 / (4.0 * pi) * weight * ring.weights * (r * area).rowwise().sum();
+  ring.kernel.resize(n, n_entry);
+  for (int i = 0; i < 3; ++i)
+    for (int k = i; k < 3; ++k) ring.kernel.col(entry_of[i][k]).array() = ring.factor * r.col(i) * r.col(k);
+  ring.basis.resize(n, 2 * order_ + 1);
+  ring.basis.col(1) = ring.cosines;
+  ring.basis.col(order_ + 1) = ring.sines;
+  fill_trigonometric(order_, ring.basis);
+  result.noalias() = ring.basis.transpose() * ring.kernel;
+}
+
 NodeRows GeneralRows::integrate(Vec3d target, Singularity const& near) const {
   int const n_column = 2 * order_ + 1;
   GradedRuleOptions const options{digits_, order_ + 2.0};
   double const stretch = norm(surface_.patch(near.t, near.phi).tangent_t);
-  std::vector<RulePoint> meridian, azimuth;
+  std::vector<RulePoint> meridian;
   append_graded_rule(0.0, near.t, pi, near.distance / stretch, options, meridian);
 
-  MatrixXd modal(meridian.size(), n_entry * n_column), kernel, basis;
+  MatrixXd modal(n_entry * n_column, meridian.size());
   std::vector<double> t;
+  Ring ring;
   for (std::size_t s = 0; s < meridian.size(); ++s) {
     t.push_back(meridian[s].x);
     Grading::PolarAngle const angle = surface_.grading().polar_angle(t.back());
     double const centre = closest_azimuth(target, angle, near.phi);
     SurfacePatch const closest = surface_.patch(angle, centre);
     double const speed = norm(closest.tangent_phi), gap = norm(target - closest.position);
-    periodic_rule(centre, gap > 10.0 * speed ? 10.0 : gap / speed, options, azimuth);
-    auto const n = static_cast<Eigen::Index>(azimuth.size());
-    kernel.resize(n, n_entry);
-    basis.resize(n, n_column);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      SurfacePatch const y = surface_.patch(angle, azimuth[k].x);
-      Vec3d const r = target - y.position;
-      double const inverse = 1.0 / dot(r, r), cube = inverse * std::sqrt(inverse);
-      double const weight = meridian[s].weight * azimuth[k].weight;
-      write_entries(r, -3.0 / (4.0 * pi) * weight * dot(r, y.area_vector()) * inverse * cube, kernel.row(k));
-      trigonometric_row(azimuth[k].x, order_, basis, k);
-    }
-    MatrixXd const ring = basis.transpose() * kernel;
-    modal.row(s) = Eigen::Map<Eigen::RowVectorXd const>(ring.data(), ring.size());
+    periodic_rule(centre, gap > 10.0 * speed ? 10.0 : gap / speed, options, ring.rule);
+    integrate_ring(target, angle, meridian[s].weight, ring, Eigen::Map<MatrixXd>(modal.col(s).data(), n_column, n_entry));
   }
-  NodeRows rows = to_nodes(t, modal);
+  NodeRows rows = to_nodes(t, modal.transpose());
   Eigen::Matrix3d defect = near.jump * Eigen::Matrix3d::Identity();
   for (Eigen::Index i = 0; i < rows.cols(); i += 3) defect -= rows.middleCols<3>(i);
   Eigen::VectorXd const cardinal = cardinal_functions(near.t, near.phi);
@@ -148,9 +177,9 @@ NodeRows GeneralRows::to_nodes(std::vector<double> const& t, MatrixXd const& mod
 
 Eigen::VectorXd GeneralRows::cardinal_functions(double t, double phi) const {
   int const n_ring = order_ + 1, n_azimuth = 2 * n_ring, n_column = 2 * order_ + 1;
-  MatrixXd even, odd, basis(1, n_column);
+  MatrixXd even, odd;
+  MatrixXd const basis = trigonometric({phi}, order_);
   ring_polynomials({t}, even, odd);
-  trigonometric_row(phi, order_, basis, 0);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(n_ring * n_azimuth);
   for (int c = 0; c < n_column; ++c) {
     auto const& ring = mode_of_column(c, order_) % 2 ? odd : even;

@@ -24,6 +24,9 @@ class GeneralRows {
   struct Singularity {
     double t, phi, distance, jump;  // closest point, um, u for a unit constant density
   };
+  struct Ring;
+  void integrate_ring(Vec3d target, Grading::PolarAngle angle, double weight, Ring& ring,
+                      Eigen::Ref<Eigen::MatrixXd> result) const;
   NodeRows integrate(Vec3d target, Singularity const& near) const;
   double closest_azimuth(Vec3d target, Grading::PolarAngle ring, double guess) const;
   Eigen::VectorXd cardinal_functions(double t, double phi) const;  // of all nodes at a point

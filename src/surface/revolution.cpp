@@ -101,6 +101,29 @@ SphereImage Revolution::image(Vec3d d) const {
   return {{centre_ + R * d.x, R * d.y, R * d.z}, jacobian};
 }
 
+// With u = d_x, R = sum_k c_k T_k(u) by Clenshaw's recurrence; the area vector is R (R d - dR/du (e_x - u d)).
+void Revolution::sample(Columns const& d, Columns& positions, Columns& areas) const {
+  Eigen::ArrayXd const u = d.col(0), zero = Eigen::ArrayXd::Zero(u.size());
+  Eigen::ArrayXd b1 = zero, b2 = zero, slope1 = zero, slope2 = zero, next;
+  for (auto k = coefficients_.size() - 1; k > 0; --k) {
+    next = 2.0 * (b1 + u * slope1) - slope2;
+    slope2.swap(slope1);
+    slope1.swap(next);
+    next = coefficients_[k] + 2.0 * u * b1 - b2;
+    b2.swap(b1);
+    b1.swap(next);
+  }
+  Eigen::ArrayXd const R = coefficients_[0] + u * b1 - b2, slope = b1 + u * slope1 - slope2;
+  positions.resize(d.rows(), 3);
+  areas.resize(d.rows(), 3);
+  for (int i = 0; i < 3; ++i) {
+    positions.col(i) = R * d.col(i);
+    areas.col(i) = R * (R + slope * u) * d.col(i);
+  }
+  positions.col(0) += centre_;
+  areas.col(0) -= R * slope;
+}
+
 // Zero of (X - x) . X' next to the nearest sample: Newton, kept inside the bracket by bisection.
 double Revolution::closest_angle(double z, double r) const {
   auto const n = static_cast<int>(samples_.size()) - 1;

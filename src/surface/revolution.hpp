@@ -18,6 +18,7 @@ class Revolution : public Shape {
   bool axisymmetric() const override { return true; }
   Vec3d centre() const override { return {centre_, 0.0, 0.0}; }
   SphereImage image(Vec3d direction) const override;
+  void sample(Columns const& directions, Columns& positions, Columns& areas) const override;
   ClosestPoint closest_point(Vec3d x) const override;
   ShellPoint shell_point(Vec3d x) const override;
   double size() const override { return largest_; }

@@ -37,6 +37,9 @@ class Shape {
   virtual bool axisymmetric() const = 0;  // about the polar axis through the origin
   virtual Vec3d centre() const { return {}; }
   virtual SphereImage image(Vec3d direction) const = 0;
+  // Images of many unit directions and their area vectors, outward, um^2 per unit solid angle; overwritten.
+  using Columns = Eigen::Array<double, Eigen::Dynamic, 3>;  // x, y, z
+  virtual void sample(Columns const& directions, Columns& positions, Columns& areas) const = 0;
   virtual ClosestPoint closest_point(Vec3d x) const = 0;
   virtual ShellPoint shell_point(Vec3d x) const = 0;
   virtual double size() const = 0;          // um, largest distance of the surface from the centre

@@ -45,6 +45,17 @@ SurfacePatch Surface::patch(Grading::PolarAngle ring, double phi) const {
           product(image.jacobian, from_polar({0.0, -s * sp, s * cp}))};
 }
 
+void Surface::sample_ring(Grading::PolarAngle ring, Eigen::ArrayXd const& cosines, Eigen::ArrayXd const& sines,
+                          RingSample& sample) const {
+  double const c = std::cos(ring.theta), s = std::sin(ring.theta);
+  Eigen::Matrix3d const& frame = grading_.frame();
+  sample.directions.resize(cosines.size(), 3);
+  for (int i = 0; i < 3; ++i)
+    sample.directions.col(i) = c * frame(i, 0) + s * (frame(i, 1) * cosines + frame(i, 2) * sines);
+  shape_->sample(sample.directions, sample.positions, sample.areas);
+  sample.areas *= s * ring.slope;
+}
+
 ClosestAngles Surface::closest_angles(Vec3d x) const {
   ClosestPoint const closest = shape_->closest_point(x);
   Vec3d const d = to_polar(closest.direction);

@@ -44,6 +44,12 @@ class Surface {
   bool axisymmetric() const { return axisymmetric_; }  // in phi, with its grid
   SurfacePatch patch(double t, double phi) const { return patch(grading_.polar_angle(t), phi); }
   SurfacePatch patch(Grading::PolarAngle ring, double phi) const;
+  // Positions (um) and area vectors (um^2 per unit of t and phi) of one ring at many azimuths; overwritten.
+  struct RingSample {
+    Shape::Columns directions, positions, areas;
+  };
+  void sample_ring(Grading::PolarAngle ring, Eigen::ArrayXd const& cosines, Eigen::ArrayXd const& sines,
+                   RingSample& sample) const;
   ClosestAngles closest_angles(Vec3d x) const;
 
   // Components along (e_1, e_2, e_3) of the grading, and back.
