@@ -32,9 +32,12 @@ void print_mobility(MobilityOptions const& options) {
   if (result.names.size() > 1)
     together = fmt::format(", \"resistance\": {}, \"mobility\": {}", json_matrix(result.resistance),
                            json_matrix(result.mobility));
-  fmt::print("{{\"bodies\": [{}]{}, \"interactions\": {}, \"viscosity\": {}, \"units\": {}}}\n", bodies, together,
-             json_text(std::string(name_of(scene.run.interactions))), json_number(scene.fluid.viscosity),
+  std::string const error = result.error > 0.0 ? fmt::format(", \"error\": {}", json_number(result.error)) : "";
+  fmt::print("{{\"bodies\": [{}]{}, \"interactions\": {}, \"viscosity\": {}{}, \"units\": {}}}\n", bodies, together,
+             json_text(std::string(name_of(scene.run.interactions))), json_number(scene.fluid.viscosity), error,
              json_text("um, s, pN"));
+  if (result.error > scene.run.accuracy)
+    fmt::print(stderr, "note: the estimated error {:.1e} exceeds accuracy = {:g}\n", result.error, scene.run.accuracy);
 }
 
 }  // namespace
@@ -46,7 +49,8 @@ void add_mobility_command(CLI::App& program, Action& chosen) {
       "The 6 x 6 resistance and mobility matrices of every body in the scene as it stands, as JSON on stdout:\n"
       "  (force, torque about the centre) = resistance (velocity, angular velocity), the other bodies held still;\n"
       "  (velocity, angular velocity) = mobility (force, torque), the other bodies free.\n"
-      "Several bodies: also the matrices of all together, in the order of the scene. Units um, s, pN.");
+      "Several bodies: also the matrices of all together, in the order of the scene. Units um, s, pN. Without\n"
+      "fibers `error` is the estimated relative error of the matrices.");
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
   add_overrides(*command, options->overrides);
   command->footer(examples(

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "surface/point_load.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -78,6 +79,34 @@ void DoubleLayer::apply(ConstPoints q, Points v) const {
     Load const total = load(q);
     for (std::size_t i = 0; i < q.size(); ++i) v[i] += velocity_of_load(total, surface_.nodes()[i]);
   }
+}
+
+Eigen::MatrixXd DoubleLayer::equation() const {
+  auto const n = static_cast<Eigen::Index>(surface_.size());
+  if (nodes_ && side_ == Side::exterior) {
+    PointLoad const completion(surface_);
+    Eigen::MatrixXd velocities(3 * n, 6);
+    for (Eigen::Index i = 0; i < n; ++i) velocities.middleRows<3>(3 * i) = completion.velocity(surface_.nodes()[i]);
+    Eigen::MatrixXd matrix = matrix_ + velocities * completion.rows();
+    matrix.diagonal().array() -= 0.5;
+    return matrix;
+  }
+  if (nodes_) {
+    Eigen::VectorXd const normals = flat(surface_.normals());
+    Eigen::VectorXd fluxes = normals / surface_.area();
+    for (Eigen::Index i = 0; i < n; ++i) fluxes.segment<3>(3 * i) *= surface_.weights()[i];
+    Eigen::MatrixXd matrix = matrix_ + normals * fluxes.transpose();
+    matrix.diagonal().array() += 0.5;
+    return matrix;
+  }
+  Eigen::MatrixXd matrix(3 * n, 3 * n);
+  parallel_for("DoubleLayer::equation", 3 * n, [&](long column) {
+    PointArray unit(surface_.size()), image(surface_.size());
+    flat(Points(unit))[column] = 1.0;
+    apply_modes(unit, image);
+    matrix.col(column) = flat(ConstPoints(image));
+  });
+  return matrix;
 }
 
 // The modes do not hold the highest cosine of the grid; on it the operator is taken as its jump alone.

@@ -23,6 +23,7 @@ class DoubleLayer {
   NodeRows rows(Vec3d target) const;
   // The completed equation of the surface alone: v = (+-1/2 + D) q + completion. Overwrites.
   void apply(ConstPoints q, Points v) const;
+  Eigen::MatrixXd equation() const;  // of apply: (3 size) x (3 size)
   // Its inverse where the surface is axisymmetric, else the multiple of the identity that it clusters around. Overwrites.
   void precondition(ConstPoints v, Points q) const;
 

@@ -3,8 +3,9 @@
 //   (F_1, T_1, F_2, ...) = R (U_1, Omega_1, U_2, ...),
 // forces and torques of the bodies on the fluid, torques about the bodies' own positions; R is symmetric and positive
 // definite, the mobility is its inverse. Boundary integral equation with completed double layers (double_layer.hpp) on
-// all surfaces, accurate at any separation that the nodes resolve; a surface with a close neighbour crowds its nodes at
-// the contact. [Power & Miranda 1987; Kim & Karrila 1991, ch. 15]
+// all surfaces; a surface with a close neighbour crowds its nodes at the contact (close_spots.hpp). The order follows from
+// the gaps and the accuracy, and rises until the estimated error meets the accuracy.
+// [Power & Miranda 1987; Kim & Karrila 1991, ch. 15]
 
 #include "surface/contact.hpp"
 
@@ -22,13 +23,13 @@ struct ResistanceOptions {
 struct Resistance {
   Eigen::MatrixXd resistance;  // 6n x 6n: pN s/um, pN s, pN um s
   Eigen::MatrixXd mobility;    // its inverse
-  double asymmetry = 0.0;      // |R - R^T| / |R| before symmetrisation: an estimate of the error
-  int order = 0;
+  double error = 0.0;          // estimated, relative: from the change with the order and from R - R^T
+  int order = 0;               // of all surfaces
   int iterations = 0;          // of GMRES, largest over the motions
 };
 
-// Throws SceneError where surfaces overlap; NumericalError where a gap is below 1e-4 of the smaller surface's size or needs
-// more nodes than order 56 has (several contacts on one surface), or where the result is not symmetric to 1 %.
+// Throws SceneError where surfaces overlap; NumericalError where a gap is below 1e-4 of the smaller surface's size, or
+// where the error exceeds 1 %. Above the accuracy asked for, `error` says so.
 Resistance solve_resistance(std::vector<PlacedSurface> const& bodies, std::optional<PlacedSurface> const& periphery,
                             ResistanceOptions const& options);
 

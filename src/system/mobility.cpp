@@ -46,6 +46,7 @@ SceneMobility mobility_of_bodies(Scene const& scene) {
   auto solved = solve_resistance(bodies, periphery, {scene.fluid.viscosity, scene.run.accuracy, order});
   result.resistance = std::move(solved.resistance);
   result.mobility = std::move(solved.mobility);
+  result.error = solved.error;
   return result;
 }
 
