@@ -39,23 +39,31 @@ void multiply(MatrixXd const& a, Eigen::Matrix<double, Eigen::Dynamic, 2> const&
 
 }  // namespace
 
-AxisymmetricDirichlet::AxisymmetricDirichlet(Surface const& surface, Side side, int n_shell, double accuracy)
-    : boundary_(surface, side, quadrature_digits(accuracy)), n_shell_(n_shell), n_ring_(surface.grid().n_ring()) {
-  assemble_shells();
-  load_operators_.resize(side == Side::exterior ? 2 : 0);
+AxisymmetricDirichlet::AxisymmetricDirichlet(Surface const& surface, Side side, int n_shell, double accuracy,
+                                             Matrices matrices)
+    : surface_(surface), side_(side), transform_(surface.grid().n_azimuth()), n_shell_(n_shell),
+      n_ring_(surface.grid().n_ring()), matrices_(std::move(matrices)) {
+  if (matrices_.empty()) assemble(accuracy);
+}
+
+void AxisymmetricDirichlet::assemble(double accuracy) {
+  ModalBoundary const boundary(surface_, side_, quadrature_digits(accuracy));
+  matrices_.assign(n_ring_ + (side_ == Side::exterior ? 2 : 0), {});
+  assemble_shells(boundary);
   parallel_for("AxisymmetricDirichlet::solve", n_ring_, [&](long m) {
-    Eigen::PartialPivLU<MatrixXd> const inverse(boundary_.equation(static_cast<int>(m)).transpose());
-    MatrixXd& shells = shell_operators_[m];
+    Eigen::PartialPivLU<MatrixXd> const inverse(boundary.equation(static_cast<int>(m)).transpose());
+    MatrixXd& shells = matrices_[m];
     shells = inverse.solve(shells.transpose()).transpose();
     shells.topRows(3 * n_ring_).setIdentity();  // shell 0 is the surface: exactly the boundary data
-    if (boundary_.side() == Side::exterior && m < 2)
-      load_operators_[m] = inverse.solve(boundary_.load_of_density(static_cast<int>(m)).transpose()).transpose();
+    if (side_ == Side::exterior && m < 2)
+      matrices_[n_ring_ + m] = inverse.solve(boundary.load_of_density(static_cast<int>(m)).transpose()).transpose();
   });
   drop_negligible_shells(accuracy);
 }
 
 void AxisymmetricDirichlet::drop_negligible_shells(double accuracy) {
-  for (MatrixXd& shells : shell_operators_) {
+  for (int m = 0; m < n_ring_; ++m) {
+    MatrixXd& shells = matrices_[m];
     int kept = n_shell_;
     while (kept > 1 && shells.middleRows((kept - 1) * 3 * n_ring_, 3 * n_ring_).lpNorm<Eigen::Infinity>() < 0.1 * accuracy)
       --kept;
@@ -63,54 +71,44 @@ void AxisymmetricDirichlet::drop_negligible_shells(double accuracy) {
   }
 }
 
-CylindricalPoint AxisymmetricDirichlet::shell_node(int ring, int shell) const {
-  double const scale = shell_scale(shell, n_shell_), rho = boundary_.side() == Side::interior ? scale : 1.0 / scale;
-  CylindricalPoint const arm = boundary_.ring(ring);
-  return {rho * arm.z, rho * arm.r};
-}
-
 // Velocity on the shells of the density itself; solved for boundary data by the caller.
-void AxisymmetricDirichlet::assemble_shells() {
-  shell_operators_.assign(n_ring_, MatrixXd::Zero(3 * n_shell_ * n_ring_, 3 * n_ring_));
-  ModalBoundary::LoadRows const loads[2] = {boundary_.load_of_density(0), boundary_.load_of_density(1)};
-  double const shift = boundary_.surface().to_polar(boundary_.surface().shape().centre()).x;
+void AxisymmetricDirichlet::assemble_shells(ModalBoundary const& boundary) {
+  for (int m = 0; m < n_ring_; ++m) matrices_[m].setZero(3 * n_shell_ * n_ring_, 3 * n_ring_);
+  ModalBoundary::LoadRows const loads[2] = {boundary.load_of_density(0), boundary.load_of_density(1)};
+  double const shift = boundary.surface().to_polar(boundary.surface().shape().centre()).x;
   long const n_inner = static_cast<long>(n_shell_ - 1) * n_ring_;
   parallel_for("AxisymmetricDirichlet::shells", n_inner, [&](long i) {
     int const k = 1 + static_cast<int>(i / n_ring_), j = static_cast<int>(i % n_ring_);
-    bool const is_infinity = boundary_.side() == Side::exterior && k == n_shell_ - 1;
-    double const scale = boundary_.side() == Side::interior ? 1.0 : (is_infinity ? 1.0 : 1.0 / shell_scale(k, n_shell_));
-    CylindricalPoint const x = shell_node(j, is_infinity ? 0 : k);
-    ModalRowSet const set = is_infinity ? ModalRowSet() : boundary_.rows().at({x.z + shift, x.r});
+    bool const is_infinity = side_ == Side::exterior && k == n_shell_ - 1;
+    double const scale = is_infinity ? 1.0 : shell_scale(k, n_shell_), factor = side_ == Side::interior ? 1.0 : 1.0 / scale;
+    CylindricalPoint const arm = boundary.ring(j);
+    double const rho = side_ == Side::interior ? scale : 1.0 / scale;  // infinity: that of the surface
+    CylindricalPoint const x{rho * arm.z, rho * arm.r};
+    ModalRowSet const set = is_infinity ? ModalRowSet() : boundary.rows().at({x.z + shift, x.r});
     for (int m = 0; m < n_ring_; ++m) {
       Eigen::Matrix<double, 3, Eigen::Dynamic> velocity = Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, 3 * n_ring_);
       if (!is_infinity) velocity = set[m];
-      if (boundary_.side() == Side::exterior && m < 2) {
+      if (side_ == Side::exterior && m < 2) {
         Eigen::Matrix<double, 3, 2> u = modal_velocity_of_load(m, x);
         if (is_infinity) u.col(1).setZero();  // the Stokeslet alone falls as s
         velocity += u * loads[m];
       }
-      for (int c = 0; c < 3; ++c) shell_operators_[m].row((k * 3 + c) * n_ring_ + j) = scale * velocity.row(c);
+      for (int c = 0; c < 3; ++c) matrices_[m].row((k * 3 + c) * n_ring_ + j) = factor * velocity.row(c);
     }
   });
 }
 
 void AxisymmetricDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const {
-  std::vector<ModalBoundary::Mode> const boundary = boundary_.analyse(boundary_velocity);
+  std::vector<RingMode> const boundary = analyse_modes(surface_, transform_, boundary_velocity);
   modes.resize(n_ring_);
   parallel_for("AxisymmetricDirichlet::shell_modes", n_ring_,
-               [&](long m) { multiply(shell_operators_[m], boundary[m], modes[m]); });
+               [&](long m) { multiply(matrices_[m], boundary[m], modes[m]); });
 }
 
 Eigen::Matrix<double, 6, 1> AxisymmetricDirichlet::load(ConstPoints boundary_velocity) const {
-  ASTERFLOW_REQUIRE(boundary_.side() == Side::exterior);
-  std::vector<ModalBoundary::Mode> const boundary = boundary_.analyse(boundary_velocity);
-  return ModalBoundary::load(load_operators_[0] * boundary[0], load_operators_[1] * boundary[1]);
-}
-
-std::size_t AxisymmetricDirichlet::memory() const {
-  std::size_t bytes = 0;
-  for (auto const& a : shell_operators_) bytes += sizeof(double) * a.size();
-  return bytes;
+  ASTERFLOW_REQUIRE(side_ == Side::exterior);
+  std::vector<RingMode> const boundary = analyse_modes(surface_, transform_, boundary_velocity);
+  return ModalBoundary::load(matrices_[n_ring_] * boundary[0], matrices_[n_ring_ + 1] * boundary[1]);
 }
 
 }  // namespace asterflow

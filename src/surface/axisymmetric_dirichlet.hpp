@@ -9,21 +9,24 @@ namespace asterflow {
 class AxisymmetricDirichlet : public ShellOperator {
  public:
   // Keeps a reference to the surface. Modes are left out on shells where they are below `accuracy` of their boundary values.
-  AxisymmetricDirichlet(Surface const& surface, Side side, int n_shell, double accuracy);
+  // With `matrices` of an equal operator nothing is computed.
+  AxisymmetricDirichlet(Surface const& surface, Side side, int n_shell, double accuracy, Matrices matrices);
 
   void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const override;
   Eigen::Matrix<double, 6, 1> load(ConstPoints boundary_velocity) const override;
-  std::size_t memory() const override;
+  Matrices const& matrices() const override { return matrices_; }
 
  private:
-  CylindricalPoint shell_node(int ring, int shell) const;  // from the centre
-  void assemble_shells();
+  void assemble(double accuracy);
+  void assemble_shells(ModalBoundary const& boundary);
   void drop_negligible_shells(double accuracy);
 
-  ModalBoundary boundary_;
+  Surface const& surface_;
+  Side side_;
+  AzimuthTransform transform_;
   int n_shell_, n_ring_;
-  std::vector<Eigen::MatrixXd> shell_operators_;         // [mode] (kept shells * 3 n_ring) x (3 n_ring)
-  std::vector<ModalBoundary::LoadRows> load_operators_;  // [mode 0, 1] of boundary velocity
+  // [mode] (kept shells * 3 n_ring) x (3 n_ring); then, exterior, of modes 0 and 1: load of boundary velocity, 2 x (3 n_ring)
+  Matrices matrices_;
 };
 
 }  // namespace asterflow

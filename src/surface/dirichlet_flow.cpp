@@ -2,8 +2,10 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/timer.hpp"
 #include "surface/axisymmetric_dirichlet.hpp"
 #include "surface/general_dirichlet.hpp"
+#include "surface/operator_cache.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +14,8 @@
 
 namespace asterflow {
 namespace {
+
+constexpr double worth_storing = 0.3;  // s, to make an operator
 
 // Shells needed along the radius. A field of degree p in rho (or s) has Chebyshev coefficients that fall like
 // exp(-k^2 / p); outside a slender shape the field is singular at s = 1 / eccentricity, inside the shape.
@@ -33,10 +37,15 @@ DirichletFlow::DirichletFlow(Surface surface, Side side, double accuracy)
       table_(surface_->grid(), n_shell_, InterpolationWindow::width_for(accuracy), 2.0),
       rough_table_(surface_->grid(), n_shell_, InterpolationWindow::widths[0], 1.25) {
   ASTERFLOW_REQUIRE(surface_->grading().uniform());
+  OperatorKey const key(*surface_, side, n_shell_, accuracy);
+  auto stored = read_operator(key);
+  bool const is_new = stored.empty();
+  Timer const timer;
   if (surface_->axisymmetric())
-    operator_ = std::make_unique<AxisymmetricDirichlet>(*surface_, side, n_shell_, accuracy);
+    operator_ = std::make_unique<AxisymmetricDirichlet>(*surface_, side, n_shell_, accuracy, std::move(stored));
   else
-    operator_ = std::make_unique<GeneralDirichlet>(*surface_, side, n_shell_, accuracy);
+    operator_ = std::make_unique<GeneralDirichlet>(*surface_, side, n_shell_, accuracy, std::move(stored));
+  if (is_new && timer.seconds() > worth_storing) write_operator(key, operator_->matrices());
 }
 
 DirichletFlow::Targets DirichletFlow::plan(ConstPoints targets) const {
@@ -109,12 +118,16 @@ Matrix6 DirichletFlow::resistance() const {
   return 0.5 * (result + result.transpose());
 }
 
-std::size_t DirichletFlow::memory() const { return operator_->memory() + table_.memory() + rough_values_.memory(); }
+std::size_t DirichletFlow::memory() const {
+  std::size_t bytes = table_.memory() + rough_values_.memory();
+  for (auto const& matrix : operator_->matrices()) bytes += sizeof(double) * static_cast<std::size_t>(matrix.size());
+  return bytes;
+}
 
 int default_order(Shape const& shape, double accuracy) {
   double const digits = std::clamp(-std::log10(accuracy), 2.0, 12.0);
   double const slenderness = std::sqrt(std::min(shape.aspect_ratio(), 9.0));
-  int const highest = shape.axisymmetric() ? 64 : 16;  // the dense operator takes 0.4 GB at 16
+  int const highest = shape.axisymmetric() ? 64 : 32;  // the operator of a triaxial shape takes 1 GB at 32
   return std::clamp(static_cast<int>(std::lround((2.0 + 3.5 * digits) * (0.6 + 0.4 * slenderness))), 6, highest);
 }
 

@@ -1,33 +1,36 @@
 #pragma once
-// Solution operator (shell_operator.hpp) of a surface without symmetry as one dense matrix; equation as in
-// modal_boundary.hpp, rows of general_rows.hpp. Meant for orders up to 16 (0.4 GB).
+// Solution operator (shell_operator.hpp) of a triaxial ellipsoid; equation as in modal_boundary.hpp, rows of
+// general_rows.hpp. Its three mirror planes split it into eight dense blocks (mirror_classes.hpp): with 2 (p + 1)^2
+// nodes and n shells they take about 4.5 n (p + 1)^4 numbers, 0.3 GB at order 24.
 
+#include "surface/mirror_classes.hpp"
 #include "surface/shell_operator.hpp"
-#include "surface/surface.hpp"
 
 namespace asterflow {
 
-class DoubleLayer;
-
 class GeneralDirichlet : public ShellOperator {
  public:
-  // Keeps a reference to the surface.
-  GeneralDirichlet(Surface const& surface, Side side, int n_shell, double accuracy);
+  // Keeps a reference to the surface. With `matrices` of an equal operator nothing is computed.
+  GeneralDirichlet(Surface const& surface, Side side, int n_shell, double accuracy, Matrices matrices);
 
   void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const override;
   Eigen::Matrix<double, 6, 1> load(ConstPoints boundary_velocity) const override;
-  std::size_t memory() const override;
+  Matrices const& matrices() const override { return matrices_; }
 
  private:
-  // Columns: velocity at shell k >= 1 along direction of node i, in the order (k, i, component); rows: density.
-  Eigen::MatrixXd shell_rows(DoubleLayer const& layer, Eigen::MatrixXd const& loads) const;
+  void assemble(double accuracy);
+  std::size_t node_of(std::size_t representative) const { return classes_.representatives()[representative]; }
+  Eigen::MatrixXd const& shells(int mirror_class) const { return matrices_[mirror_class]; }
+  Eigen::MatrixXd const& loads(int mirror_class) const { return matrices_[MirrorClasses::count + mirror_class]; }
+  PointArray to_polar(ConstPoints field) const;
 
   Surface const& surface_;
   Side side_;
   int n_shell_;
+  MirrorClasses classes_;
   AzimuthTransform transform_;
-  Eigen::MatrixXd shells_;  // (3 size) x (3 size (n_shell - 1)), transposed operator
-  Eigen::MatrixXd loads_;   // 6 x (3 size) of boundary velocity, exterior
+  // [class] boundary data -> shells, transposed: size x (size (n_shell - 1)); then [class] -> load: 6 x size, exterior
+  Matrices matrices_;
 };
 
 }  // namespace asterflow

@@ -16,7 +16,9 @@ class ShellOperator {
   virtual void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const = 0;
   // Exterior: force and torque about the centre, along (e_1, e_2, e_3), viscosity 1.
   virtual Eigen::Matrix<double, 6, 1> load(ConstPoints boundary_velocity) const = 0;
-  virtual std::size_t memory() const = 0;  // bytes
+  // Everything that was computed: what an equal operator can be made of (operator_cache.hpp).
+  using Matrices = std::vector<Eigen::MatrixXd>;
+  virtual Matrices const& matrices() const = 0;
 };
 
 }  // namespace asterflow
