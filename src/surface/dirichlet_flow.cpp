@@ -128,7 +128,8 @@ int default_order(Shape const& shape, double accuracy) {
   double const digits = std::clamp(-std::log10(accuracy), 2.0, 12.0);
   double const slenderness = std::sqrt(std::min(shape.aspect_ratio(), 9.0));
   int const highest = shape.axisymmetric() ? 64 : 32;  // the operator of a triaxial shape takes 1 GB at 32
-  return std::clamp(static_cast<int>(std::lround((2.0 + 3.5 * digits) * (0.6 + 0.4 * slenderness))), 6, highest);
+  int const margin = shape.axisymmetric() ? 0 : 3;
+  return std::clamp(static_cast<int>(std::lround((2.0 + 3.5 * digits) * (0.6 + 0.4 * slenderness))) + margin, 6, highest);
 }
 
 }  // namespace asterflow
