@@ -296,8 +296,10 @@ void FiberResponse::set_body_resistance() {
   }
 }
 
-// Row k: minus the work of R u, and of the spring at the plus end as the fiber yields to u, in the body's k-th unit motion g,
-//   D_k u = -g . w R u - g(L) . K dX(L),   R = (a0/dt) (1/w) B^T B - drag,   B = lower^-1 drag^T.
+// Row k: minus the work of R u, and of the springs at the plus end and on the nodes as the fiber yields to u, in the body's
+// k-th unit motion g,
+//   D_k u = -g . w R u - g(L) . K dX(L) - g . w K_i dX_i,   R = (a0/dt) (1/w) B^T B - drag,   B = lower^-1 drag^T;
+// a node moves by dX_i = (1/w) c (I + t t) (B^T B u)_i.
 void FiberResponse::set_load_of_flow() {
   if (!step_.body) return;
   int const n = step_.basis->n_node;
@@ -307,13 +309,15 @@ void FiberResponse::set_load_of_flow() {
   for (int k = 0; k < 6; ++k) {
     for (int i = 0; i < n; ++i) {
       Vec3d const g = velocity_of_motion(Vector6::Unit(k), nodes_[i] - step_.body->predicted.position);
-      generators.col(k).segment<3>(3 * i) = to_eigen(g);
+      Vec3d worked = rate_ * g;
+      if (has_external_load(i)) worked += rate_ * displacement(i, {}, step_.node_loads[i].stiffness * g);
+      generators.col(k).segment<3>(3 * i) = to_eigen(worked);
       load_of_flow_.row(k).segment<3>(3 * i) = to_eigen(weights_[i] * drag(i, g)).transpose();
     }
     at_tip.col(k) = to_eigen(velocity_of_motion(Vector6::Unit(k), plus_end_ - step_.body->predicted.position));
   }
   Map yielding = scratch<3>(n_unknown_, 6);
-  yielding.noalias() = rate_ * (reduced_.leftCols(3 * n) * generators);
+  yielding.noalias() = reduced_.leftCols(3 * n) * generators;
   if (has_tip_spring()) {
     Eigen::MatrixXd spring = tip_motion_.transpose() * (step_.tip.stiffness.transpose() * at_tip);
     lower_.triangularView<Eigen::Lower>().solveInPlace(spring);
@@ -321,6 +325,9 @@ void FiberResponse::set_load_of_flow() {
   }
   load_of_flow_.noalias() -= yielding.transpose() * reduced_.leftCols(3 * n);
 }
+
+// Whether a load on the node pulls at the body through the fiber: not one between the two.
+bool FiberResponse::has_external_load(int i) const { return !step_.node_loads.empty() && !step_.node_loads[i].is_internal; }
 
 bool FiberResponse::has_tip_spring() const { return !step_.tip.stiffness.isZero(0.0); }
 
@@ -399,7 +406,7 @@ void FiberResponse::add_affine(Points f, Vector6& load) const {
     f[i] += total[i] - step_.load.motor * tangents_[i];
     if (!step_.body) continue;
     add_body_load(nodes_[i], weights_[i] * (applied(i) - total[i]), load);
-    if (step_.node_loads.empty() || step_.node_loads[i].is_internal) continue;
+    if (!has_external_load(i)) continue;
     add_body_load(nodes_[i], weights_[i] * step_.node_loads[i].force, load);
     add_node_load(i, -velocity_[i], total[i], load);
   }
@@ -410,7 +417,7 @@ void FiberResponse::add_affine(Points f, Vector6& load) const {
 
 // What the spring on a node does to the body when flow and force move the node.
 void FiberResponse::add_node_load(int i, Vec3d u, Vec3d force, Vector6& load) const {
-  if (step_.node_loads.empty() || step_.node_loads[i].is_internal) return;
+  if (!has_external_load(i)) return;
   Vec3d const moved = displacement(i, u, force);
   add_body_load(nodes_[i], -weights_[i] * (step_.node_loads[i].stiffness * moved), load);
 }

@@ -85,6 +85,7 @@ class FiberResponse {
   void add_node_stiffness(Eigen::Ref<Eigen::MatrixXd const> motions, Eigen::Ref<Eigen::MatrixXd> matrix) const;
   void set_body_resistance();
   void set_load_of_flow();
+  bool has_external_load(int i) const;
   bool has_tip_spring() const;
   void add_node_load(int i, Vec3d u, Vec3d force, Vector6& load) const;
   void add_spring_load(Unknowns response, Vector6 const& q, Vector6& load) const;

@@ -18,6 +18,7 @@ struct Swimmer {
   Fibers fibers{viscosity};
   Vector6 imbalance = Vector6::Zero();  // of force and torque on the fluid in the last step
   double largest = 0.0;                 // force or torque in it
+  std::vector<NodeLoad> node_loads{};   // on every fiber; empty: none
 
   explicit Swimmer(MinusEnd minus_end, double pull = 1.0)
       : body([] {
@@ -51,6 +52,7 @@ struct Swimmer {
   void step(double dt) {
     BodyMotionMap const& map = body.predict(dt);
     fibers.begin_step();
+    for (std::size_t i = 0; i < fibers.count(); ++i) fibers.plan(i).node_loads = node_loads;
     fibers.prepare(dt, {&map, 1});
     PointArray const still(fibers.node_count());
     PointArray f(fibers.node_count());
@@ -131,6 +133,25 @@ TEST(FibersOnBody, forces_and_torques_on_the_fluid_balance_what_is_applied) {
       swimmer.step(0.05);
       EXPECT_LT(swimmer.imbalance.norm(), 1e-10 * swimmer.largest);
     }
+  }
+}
+
+// Springs of another direction at every node, as from a curved wall; of every third one the body holds the other end.
+std::vector<NodeLoad> springs_on_nodes() {
+  std::vector<NodeLoad> loads;
+  for (int i = 0; i < 12; ++i) {
+    Eigen::Vector3d const n = Eigen::Vector3d(std::cos(i), std::sin(i), 0.3 * i).normalized();
+    loads.push_back({.force = {0.1, -0.2, 0.05 * i}, .stiffness = (1.0 + i) * n * n.transpose(), .is_internal = i % 3 == 0});
+  }
+  return loads;
+}
+
+TEST(FibersOnBody, load_of_a_flow_is_the_same_when_springs_hold_the_nodes) {
+  for (MinusEnd minus_end : {MinusEnd::clamped, MinusEnd::hinged}) {
+    Swimmer swimmer(minus_end);
+    swimmer.node_loads = springs_on_nodes();
+    swimmer.step(0.05);
+    EXPECT_LT(swimmer.disagreement_of_loads(), 1e-12);
   }
 }
 
