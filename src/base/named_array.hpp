@@ -35,4 +35,8 @@ struct NamedArray {
   }
 };
 
+inline void append(std::vector<NamedArray>& arrays, std::vector<NamedArray> more) {
+  for (NamedArray& array : more) arrays.push_back(std::move(array));
+}
+
 }  // namespace asterflow

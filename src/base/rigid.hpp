@@ -45,6 +45,10 @@ struct BodyMotionMap {
   Vec3d predicted_velocity{}, predicted_angular_velocity{};     // um/s, 1/s
   double displacement_per_velocity = 0.0;                       // s
   Matrix3 turn_per_angular_velocity = Matrix3::Zero();          // s
+
+  Vector6 predicted_motion() const {
+    return (Vector6() << to_eigen(predicted_velocity), to_eigen(predicted_angular_velocity)).finished();
+  }
 };
 
 }  // namespace asterflow

@@ -352,9 +352,7 @@ Vec3d FiberResponse::body_motion(Vector6 const& q, Vec3d point) const {
 }
 
 Vector6 FiberResponse::predicted_motion() const {
-  Vector6 q = Vector6::Zero();
-  if (step_.body) q << to_eigen(step_.body->predicted_velocity), to_eigen(step_.body->predicted_angular_velocity);
-  return q;
+  return step_.body ? step_.body->predicted_motion() : Vector6(Vector6::Zero());
 }
 
 void FiberResponse::add_body_load(Vec3d point, Vec3d force, Vector6& load) const {
@@ -431,9 +429,14 @@ FiberResponse::Unknowns FiberResponse::unknowns(ConstPoints u, Vector6 const& q)
   return y;
 }
 
+Vec3d FiberResponse::tip_position(ConstPoints u, Vector6 const& q) const {
+  Vec3d tip = plus_end_ + to_vec3(tip_motion_ * unknowns(u, q));
+  if (step_.body) tip += body_motion(q - predicted_motion(), plus_end_);
+  return tip;
+}
+
 TipAnswer FiberResponse::tip_answer(ConstPoints u, Vector6 const& q) const {
-  TipAnswer answer{plus_end_ + to_vec3(tip_motion_ * unknowns(u, q))};
-  if (step_.body) answer.position += body_motion(q - predicted_motion(), plus_end_);
+  TipAnswer answer{tip_position(u, q)};
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, max_unknowns, 3> reduced = tip_motion_.transpose();
   lower_.triangularView<Eigen::Lower>().solveInPlace(reduced);
   answer.compliance.noalias() = reduced.transpose() * reduced;
@@ -441,9 +444,7 @@ TipAnswer FiberResponse::tip_answer(ConstPoints u, Vector6 const& q) const {
 }
 
 Vec3d FiberResponse::tip_force(ConstPoints u, Vector6 const& q) const {
-  Vec3d tip = plus_end_ + to_vec3(tip_motion_ * unknowns(u, q));
-  if (step_.body) tip += body_motion(q - predicted_motion(), plus_end_);
-  return step_.tip.force - step_.tip.stiffness * (tip - step_.tip.anchor);
+  return step_.tip.force - step_.tip.stiffness * (tip_position(u, q) - step_.tip.anchor);
 }
 
 EndForces FiberResponse::internal_forces(ConstPoints u, Vector6 const& q, Centreline const& shape,

@@ -101,6 +101,7 @@ class FiberResponse {
   void add_body_load(Vec3d point, Vec3d force, Vector6& load) const;
   void respond(Eigen::Ref<Eigen::VectorXd const> reduced, Vector6 const& q, Points f) const;
   Unknowns unknowns(ConstPoints u, Vector6 const& q) const;
+  Vec3d tip_position(ConstPoints u, Vector6 const& q) const;  // um, at the new time level
 
   FiberStep step_;
   double length_ = 0.0, rate_ = 0.0;  // um; a0 / dt, 1/s

@@ -12,10 +12,6 @@ namespace {
 
 constexpr int most_passes = 8;
 
-Vector6 predicted_motion(BodyMotionMap const& body) {
-  return (Vector6() << to_eigen(body.predicted_velocity), to_eigen(body.predicted_angular_velocity)).finished();
-}
-
 // A plus end that nothing else holds is repelled like this length of fiber, um; false: it is not near.
 constexpr double plus_end_length = 1.0;
 
@@ -70,7 +66,7 @@ void StericRepulsion::hold(Fibers& fibers, std::size_t fiber, ConstPoints u,
                            std::span<BodyMotionMap const> bodies) const {
   std::size_t const first = fibers.first_node(fiber), n = fibers.first_node(fiber + 1) - first;
   MinusEndSite const& site = fibers.plan(fiber).site;
-  Vector6 const q = site.is_attached() ? predicted_motion(bodies[site.body]) : Vector6::Zero();
+  Vector6 const q = site.is_attached() ? bodies[site.body].predicted_motion() : Vector6::Zero();
   if (cortex_ && spec_.fiber_cortex && hold_plus_end(fibers.plan(fiber).tip, fibers.tip_answer(fiber, u, q), *cortex_, spec_))
     fibers.prepare_again(fiber, bodies);
   PointArray const predicted(fibers.nodes().begin() + long(first), fibers.nodes().begin() + long(first + n));
@@ -110,7 +106,7 @@ ContactLoad StericRepulsion::on_body(std::size_t body, BodyMotionMap const& map)
   Matrix3 const stiffness = spec_.body_force / spec_.range * away * away.transpose();
   result.resistance = lever.transpose() * stiffness * motion;
   result.load = lever.transpose() * (spec_.body_force * (1 - contact.gap / spec_.range) * away) +
-                result.resistance * predicted_motion(map);
+                result.resistance * map.predicted_motion();
   return result;
 }
 

@@ -1,6 +1,5 @@
 #include "system/flows.hpp"
 
-
 namespace asterflow {
 namespace {
 

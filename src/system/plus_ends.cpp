@@ -20,13 +20,6 @@ double logarithmic_mean(double a, double b) {
   return std::abs(ratio - 1) < 1e-6 ? 0.5 * (a + b) : (a - b) / std::log(ratio);
 }
 
-std::vector<Vector6> predicted_motions(std::span<BodyMotionMap const> bodies) {
-  std::vector<Vector6> motions;
-  for (auto const& body : bodies)
-    motions.push_back((Vector6() << to_eigen(body.predicted_velocity), to_eigen(body.predicted_angular_velocity)).finished());
-  return motions;
-}
-
 // The root of a decreasing function in [low, high], by false position with the Illinois rule.
 template <class Function>
 double root(Function const& f, double low, double high, double tolerance) {
@@ -200,13 +193,12 @@ void PlusEnds::hold_captured(std::size_t i, Fibers& fibers, TipAnswer const& ans
 void PlusEnds::hold(Fibers& fibers, ConstPoints u, std::span<BodyMotionMap const> bodies) {
   std::fill(errors_.begin(), errors_.end(), 0.0);
   if (!pushing_ && !pulling_) return;
-  auto const motions = predicted_motions(bodies);
   parallel_for("PlusEnds::hold", static_cast<long>(surroundings_.size()), [&](long i) {
     auto const& trial = growth_.trial_tips()[i];
     if (!trial.is_held()) return;
     MinusEndSite const& site = fibers.plan(trial.fiber).site;
-    TipAnswer const answer =
-        fibers.tip_answer(trial.fiber, u, site.is_attached() ? motions[site.body] : Vector6::Zero());
+    TipAnswer const answer = fibers.tip_answer(
+        trial.fiber, u, site.is_attached() ? bodies[site.body].predicted_motion() : Vector6::Zero());
     if (trial.state == TipState::pushing)
       hold_pushing(i, fibers, answer);
     else
@@ -243,11 +235,8 @@ void PlusEnds::accept(Fibers const& fibers) {
 
 std::vector<NamedArray> PlusEnds::state() const {
   auto arrays = growth_.state();
-  auto const append = [&](std::vector<NamedArray> more) {
-    for (auto& array : more) arrays.push_back(std::move(array));
-  };
-  if (pushing_) append(pushing_->state());
-  if (pulling_) append(pulling_->state());
+  if (pushing_) append(arrays, pushing_->state());
+  if (pulling_) append(arrays, pulling_->state());
   return arrays;
 }
 

@@ -118,17 +118,19 @@ ScatteringSolution Scattering::solve(ConstPoints background, ConstPoints guess) 
   std::size_t const n = nodes().size();
   solution.incident.assign(n, Vec3d{});
   if (radiation_) {
-    PointArray scale(n), residual(n), correction(n);
-    auto const apply_to_guess = [&](PointArray& result, Exchange kind) {
-      apply(as_vector(solution.incident), as_vector(result), true, kind);
-      for (std::size_t i = 0; i < background.size(); ++i) result[i] += background[i];
+    PointArray image(n), correction(n);
+    auto const apply_to_incident = [&](Exchange kind) {
+      apply(as_vector(solution.incident), as_vector(image), true, kind);
+      for (std::size_t i = 0; i < background.size(); ++i) image[i] += background[i];
     };
-    apply_to_guess(scale, Exchange::rough);  // b
-    if (!guess.empty()) std::copy(guess.begin(), guess.end(), solution.incident.begin());
-    apply_to_guess(residual, Exchange::accurate);
-    for (std::size_t i = 0; i < n; ++i) residual[i] -= solution.incident[i];
-    solution.gmres = correct(as_vector(residual), flat(ConstPoints(scale)).norm(), as_vector(correction),
-                             solution.inner_iterations);
+    apply_to_incident(guess.empty() ? Exchange::accurate : Exchange::rough);  // b; of the residual without a guess, else its size
+    double const scale = flat(ConstPoints(image)).norm();
+    if (!guess.empty()) {
+      std::copy(guess.begin(), guess.end(), solution.incident.begin());
+      apply_to_incident(Exchange::accurate);
+      for (std::size_t i = 0; i < n; ++i) image[i] -= guess[i];
+    }
+    solution.gmres = correct(as_vector(image), scale, as_vector(correction), solution.inner_iterations);
     for (std::size_t i = 0; i < n; ++i) solution.incident[i] += correction[i];
   } else {
     std::copy(background.begin(), background.end(), solution.incident.begin());

@@ -80,9 +80,8 @@ void Simulation::plan_fibers(double dt) {
 }
 
 // Contacts of the fibers, for the incident flow that is expected.
-void Simulation::hold_fibers(double dt, std::vector<BodyMotionMap> const& maps) {
+void Simulation::hold_fibers(PointArray u, std::vector<BodyMotionMap> const& maps) {
   if (!plus_ends_ && !steric_repulsion_) return;
-  PointArray u = guess(dt);
   u.resize(fibers_.node_count());
   if (plus_ends_) plus_ends_->hold(fibers_, u, maps);
   if (steric_repulsion_) steric_repulsion_->hold(fibers_, u, maps);
@@ -159,7 +158,7 @@ std::string Simulation::misplaced_trial() const {
   return words;
 }
 
-ScatteringSolution Simulation::solve(double dt, std::vector<BodyMotionMap> const& maps, StepReport& report) {
+ScatteringSolution Simulation::solve(ConstPoints expected, std::vector<BodyMotionMap> const& maps, StepReport& report) {
   Radiation::Seconds const before = radiation_ ? radiation_->seconds() : Radiation::Seconds{};
   Timer const timer;
   SteppedFibers const answers(fibers_);
@@ -172,8 +171,7 @@ ScatteringSolution Simulation::solve(double dt, std::vector<BodyMotionMap> const
     imposed.assign(nodes.size(), Vec3d{});
     background_->add_velocity(nodes, imposed);
   }
-  PointArray const start = guess(dt);
-  auto solution = scattering.solve(imposed, start.size() == nodes.size() ? start : PointArray{});
+  auto solution = scattering.solve(imposed, expected.size() == nodes.size() ? expected : ConstPoints{});
   if (radiation_) {
     report.sum_seconds += radiation_->seconds().sums - before.sums;
     report.surface_seconds += radiation_->seconds().surfaces - before.surfaces;
@@ -202,11 +200,12 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   for (auto& body : bodies_) maps.push_back(body.predict(dt));
   plan_fibers(dt);
   fibers_.prepare(dt, maps);
-  hold_fibers(dt, maps);
+  PointArray const expected = guess(dt);
+  hold_fibers(expected, maps);
   trial.misplaced = misplaced_prediction(maps);
   report.prepare_seconds += timer.seconds();
   if (!trial.misplaced.empty()) return trial;
-  trial.solution = solve(dt, maps, report);
+  trial.solution = solve(expected, maps, report);
   advance(trial);
   trial.misplaced = misplaced_trial();
   return trial;

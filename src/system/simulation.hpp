@@ -73,10 +73,10 @@ class Simulation {
   std::vector<NamedArray> fiber_frame() const;
   std::vector<NamedArray> fiber_end_frame() const;
   void plan_fibers(double dt);
-  void hold_fibers(double dt, std::vector<BodyMotionMap> const& maps);
+  void hold_fibers(PointArray u, std::vector<BodyMotionMap> const& maps);
   std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps) const;
   Trial attempt(double dt, StepReport& report);
-  ScatteringSolution solve(double dt, std::vector<BodyMotionMap> const& maps, StepReport& report);
+  ScatteringSolution solve(ConstPoints expected, std::vector<BodyMotionMap> const& maps, StepReport& report);
   void advance(Trial& trial);
   std::string misplaced_prediction(std::vector<BodyMotionMap> const& maps) const;
   std::string misplaced_trial() const;

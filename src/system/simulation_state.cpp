@@ -115,15 +115,12 @@ std::vector<NamedArray> Simulation::fiber_end_frame() const {
 
 std::vector<NamedArray> Simulation::frame() const {
   std::vector<NamedArray> arrays;
-  auto const append = [&](std::vector<NamedArray> more) {
-    for (auto& array : more) arrays.push_back(std::move(array));
-  };
-  if (!bodies_.empty()) append(body_frame());
-  if (fibers_.count() > 0) append(fiber_frame()), append(fiber_end_frame());
+  if (!bodies_.empty()) append(arrays, body_frame());
+  if (fibers_.count() > 0) append(arrays, fiber_frame()), append(arrays, fiber_end_frame());
   if (radiation_) {
     std::size_t const n_fiber_node = std::min(fibers_.node_count(), last_.incident.size());
     PointArray incident(last_.incident.begin() + static_cast<long>(n_fiber_node), last_.incident.end());
-    append({NamedArray::of("flow/incident", incident, "um/s")});
+    append(arrays, {NamedArray::of("flow/incident", incident, "um/s")});
   }
   return arrays;
 }
@@ -138,12 +135,9 @@ std::vector<NamedArray> Simulation::restart() const {
     }
     arrays.push_back({"body/state", {bodies_.size(), RigidBody::n_state}, states, ""});
   }
-  auto const append = [&](std::vector<NamedArray> more) {
-    for (auto& array : more) arrays.push_back(std::move(array));
-  };
-  if (fibers_.count() > 0) append(fibers_.state());
-  if (plus_ends_) append(plus_ends_->state());
-  append({NamedArray::of("flow/incident", last_.incident, "um/s"),
+  if (fibers_.count() > 0) append(arrays, fibers_.state());
+  if (plus_ends_) append(arrays, plus_ends_->state());
+  append(arrays, {NamedArray::of("flow/incident", last_.incident, "um/s"),
           NamedArray::of("flow/incident_before", before_.incident, "um/s"),
           NamedArray::of("flow/force_density", last_.force_density, "pN/um"),
           directions("solver/changes", memory_.changes()), directions("solver/images", memory_.images()),
