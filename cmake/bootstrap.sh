@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs everything asterflow is built with from the distribution (Debian 12+, Ubuntu 22.04+).
+# Installs everything asterflow is built with from the distribution (Debian 12+, Ubuntu 24.04+).
 # Safe to call again: when nothing is missing it only looks. Needs root or sudo, and only when
 # something is missing.
 #
