@@ -31,11 +31,12 @@ struct DragOptions {
 void write_points(fs::path const& path, std::vector<DragPoint> const& points) {
   fs::path const part = path.string() + ".part";
   std::ofstream file(part);
-  file << "level,fibers,translation_drag,translation_spread,rotation_drag,rotation_spread,gmres_iterations,steps,seconds\n";
+  file << "level,fibers,translation_drag,translation_spread,rotation_drag,rotation_spread,"
+          "gmres_iterations,rough_iterations,steps,seconds\n";
   for (auto const& p : points)
-    file << fmt::format("{},{},{:.8g},{:.3g},{:.8g},{:.3g},{:.3g},{},{:.4g}\n", name_of(p.level), p.fiber_count,
-                        p.translation, p.translation_spread, p.rotation, p.rotation_spread, p.iterations, p.steps,
-                        p.seconds);
+    file << fmt::format("{},{},{:.8g},{:.3g},{:.8g},{:.3g},{:.3g},{:.3g},{},{:.4g}\n", name_of(p.level), p.fiber_count,
+                        p.translation, p.translation_spread, p.rotation, p.rotation_spread, p.iterations,
+                        p.inner_iterations, p.steps, p.seconds);
   file.close();
   std::error_code error;
   if (file) fs::rename(part, path, error);
@@ -67,7 +68,7 @@ std::vector<DragPoint> read_points(fs::path const& path) {
     std::string level;
     DragPoint p;
     words >> level >> p.fiber_count >> p.translation >> p.translation_spread >> p.rotation >> p.rotation_spread >>
-        p.iterations >> p.steps >> p.seconds;
+        p.iterations >> p.inner_iterations >> p.steps >> p.seconds;
     bool is_known = false;
     for (auto const candidate : {Interactions::local, Interactions::open, Interactions::confined})
       if (level == name_of(candidate)) p.level = candidate, is_known = true;
@@ -112,9 +113,9 @@ void study(DragOptions const& options) {
   auto const done = [&](DragPoint const& point) {
     points.push_back(point);
     write_points(table, points);
-    fmt::print(stderr, "{}{:<9} {:>5} fibers   translation {:8.4g}   rotation {:8.4g}   {:.1f} iterations   {}\n",
+    fmt::print(stderr, "{}{:<9} {:>5} fibers   translation {:8.4g}   rotation {:8.4g}   {:.1f} + {:.1f} iterations   {}\n",
                isatty(STDERR_FILENO) ? "\r\033[K" : "", name_of(point.level), point.fiber_count, point.translation,
-               point.rotation, point.iterations, duration_words(point.seconds));
+               point.rotation, point.iterations, point.inner_iterations, duration_words(point.seconds));
   };
   drag_study(scene, is_known, done, [&](DragPoint const& point, double fraction) { show(point, fraction, timer); });
   fmt::print("{}\n", table.string());

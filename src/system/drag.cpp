@@ -35,7 +35,7 @@ Scene scene_of(Scene scene, std::size_t body, Interactions level, int fiber_coun
 
 struct Measurement {
   double drag = 0.0, spread = 0.0;
-  long iterations = 0;
+  long iterations = 0, inner_iterations = 0;
   int steps = 0;
 };
 
@@ -53,6 +53,7 @@ Measurement measure(Scene const& scene, std::size_t body, Pull pull, std::functi
       auto const& motion = simulation.bodies()[body].motion();
       displacement += report.dt * dot(to_vec3(motion.segment<3>(part)), along);
       result.iterations += report.iterations;
+      result.inner_iterations += report.inner_iterations;
       ++result.steps;
       progress(simulation.time() / end);
     }
@@ -101,6 +102,7 @@ void drag_study(Scene const& scene, std::function<bool(Interactions, int)> const
       point.rotation_spread = rotation.spread;
       point.steps = translation.steps + rotation.steps;
       point.iterations = static_cast<double>(translation.iterations + rotation.iterations) / point.steps;
+      point.inner_iterations = static_cast<double>(translation.inner_iterations + rotation.inner_iterations) / point.steps;
       point.seconds = timer.seconds();
       done(point);
     }

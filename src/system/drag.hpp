@@ -16,7 +16,7 @@ struct DragPoint {
   int fiber_count = 0;
   double translation = 0.0, rotation = 0.0;                // relative drag
   double translation_spread = 0.0, rotation_spread = 0.0;  // standard deviation over the samples of the measurement
-  double iterations = 0.0;                                 // GMRES, mean per step
+  double iterations = 0.0, inner_iterations = 0.0;         // GMRES with accurate and with rough sums, mean per step
   int steps = 0;
   double seconds = 0.0;  // wall time
 };
