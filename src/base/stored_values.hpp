@@ -9,11 +9,11 @@
 namespace asterflow {
 
 // Throws SceneError when there is no such array of that many numbers.
-inline std::vector<double> const& stored_values(std::span<NamedArray const> state, std::string const& name,
-                                                std::size_t size) {
+template <class Value = double>
+std::vector<Value> const& stored_values(std::span<NamedArray const> state, std::string const& name, std::size_t size) {
   for (NamedArray const& array : state)
     if (array.name == name)
-      if (auto const* values = std::get_if<std::vector<double>>(&array.values); values && values->size() == size)
+      if (auto const* values = std::get_if<std::vector<Value>>(&array.values); values && values->size() == size)
         return *values;
   throw SceneError("the stored state has no array " + name + " of the scene's size");
 }

@@ -16,18 +16,6 @@ namespace asterflow {
 
 namespace {
 
-// The bodies where they are in a stored state.
-std::vector<BodySpec> bodies_at(Scene const& scene, Frame const& frame) {
-  auto bodies = scene.bodies;
-  auto const positions = points_of(frame, "body/position");
-  auto const orientations = orientations_of(frame);
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    bodies[b].position = positions.at(b);
-    bodies[b].orientation = orientations.at(b);
-  }
-  return bodies;
-}
-
 std::string plane_name(Plane const& plane) { return fmt::format("{}={:g}", "xyz"[plane.normal], plane.offset); }
 
 std::vector<std::size_t> shape_of(PlanePoints const& grid) {
@@ -83,7 +71,7 @@ PlanePoints surrounding(Scene const& scene, Frame const& frame, Plane plane) {
     for (Vec3d const& x : periphery_mesh(scene).points) include(x, 0.0);
     margin = 0.03;
   } else {
-    for (auto const& body : bodies_at(scene, frame)) include(body.position, outer_radius(body.shape));
+    for (auto const& body : bodies_at(scene.bodies, frame)) include(body.position, outer_radius(body.shape));
     for (Vec3d const& x : points_of(frame, "fiber/position")) include(x, 0.0);
     if (grid.lower[0] > grid.upper[0]) include({}, 10.0);
   }
@@ -94,7 +82,7 @@ PlanePoints surrounding(Scene const& scene, Frame const& frame, Plane plane) {
 
 PlaneFlow plane_flow(Scene const& scene, Frame const& frame, PlanePoints const& grid) {
   PlaneFlow flow{grid, frame.time, {}, {}, {}};
-  PlacedScene const placed(bodies_at(scene, frame), scene.periphery ? &scene.periphery->shape : nullptr);
+  PlacedScene const placed(bodies_at(scene.bodies, frame), scene.periphery ? &scene.periphery->shape : nullptr);
   auto const motion = points_of(frame, "body/velocity"), turning = points_of(frame, "body/angular_velocity");
   bool const is_closed = placed.periphery && scene.run.interactions == Interactions::confined;
   PointArray const points = grid.points();

@@ -5,7 +5,7 @@
 //   fiber/history/...: the same of the two accepted states before, how many of them count, and their time steps
 //   fiber/site/...: what holds the minus ends
 
-#include "base/error.hpp"
+#include "base/stored_values.hpp"
 #include "fiber/fibers.hpp"
 
 #include <algorithm>
@@ -15,15 +15,6 @@ namespace asterflow {
 namespace {
 
 constexpr char const* prefixes[3] = {"fiber/", "fiber/history/before_", "fiber/history/before_that_"};
-
-template <class Value>
-std::vector<Value> const& values_of(std::span<NamedArray const> state, std::string const& name, std::size_t size) {
-  for (NamedArray const& array : state)
-    if (array.name == name)
-      if (auto const* values = std::get_if<std::vector<Value>>(&array.values); values && values->size() == size)
-        return *values;
-  throw SceneError("the stored state has no array " + name + " of the scene's size");
-}
 
 Vec3d point(std::vector<double> const& values, std::size_t i) {
   return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
@@ -93,9 +84,9 @@ void Fibers::restore(std::span<NamedArray const> state) {
   for (Fiber const& fiber : fibers_) n_tangent += fiber.past[0].tangents.size();
   for (int past = 0; past < 3; ++past) {
     std::string const prefix = prefixes[past];
-    auto const& lengths = values_of<double>(state, prefix + "length", n);
-    auto const& minus_ends = values_of<double>(state, prefix + "minus_end", 3 * n);
-    auto const& tangents = values_of<double>(state, prefix + "tangent", 3 * n_tangent);
+    auto const& lengths = stored_values(state, prefix + "length", n);
+    auto const& minus_ends = stored_values(state, prefix + "minus_end", 3 * n);
+    auto const& tangents = stored_values(state, prefix + "tangent", 3 * n_tangent);
     std::size_t next = 0;
     for (std::size_t i = 0; i < n; ++i) {
       Centreline& shape = fibers_[i].past[past];
@@ -104,17 +95,17 @@ void Fibers::restore(std::span<NamedArray const> state) {
       for (Vec3d& t : shape.tangents) t = point(tangents, next++);
     }
   }
-  auto const& tensions = values_of<double>(state, "fiber/tension", node_count());
+  auto const& tensions = stored_values(state, "fiber/tension", node_count());
   for (std::size_t i = 0; i < n; ++i)
     std::copy_n(tensions.begin() + first_node_[i], fibers_[i].tension.size(), fibers_[i].tension.begin());
-  auto const& counts = values_of<std::int64_t>(state, "fiber/history/count", n);
-  auto const& time_steps = values_of<double>(state, "fiber/history/time_step", 2);
-  auto const& kinds = values_of<std::int64_t>(state, "fiber/site/kind", n);
-  auto const& bodies = values_of<std::int64_t>(state, "fiber/site/body", n);
-  auto const& positions = values_of<double>(state, "fiber/site/position", 3 * n);
-  auto const& directions = values_of<double>(state, "fiber/site/direction", 3 * n);
-  auto const& ends = values_of<double>(state, "fiber/ends", 9 * n);
-  auto const& loads = values_of<double>(state, "fiber/load", 4 * n);
+  auto const& counts = stored_values<std::int64_t>(state, "fiber/history/count", n);
+  auto const& time_steps = stored_values(state, "fiber/history/time_step", 2);
+  auto const& kinds = stored_values<std::int64_t>(state, "fiber/site/kind", n);
+  auto const& bodies = stored_values<std::int64_t>(state, "fiber/site/body", n);
+  auto const& positions = stored_values(state, "fiber/site/position", 3 * n);
+  auto const& directions = stored_values(state, "fiber/site/direction", 3 * n);
+  auto const& ends = stored_values(state, "fiber/ends", 9 * n);
+  auto const& loads = stored_values(state, "fiber/load", 4 * n);
   for (std::size_t i = 0; i < n; ++i) {
     fibers_[i].ends = {point(ends, 3 * i), point(ends, 3 * i + 1), point(ends, 3 * i + 2)};
     fibers_[i].load = {{loads[4 * i], loads[4 * i + 1], loads[4 * i + 2]}, loads[4 * i + 3]};

@@ -42,4 +42,14 @@ std::vector<Eigen::Quaterniond> orientations_of(Frame const& frame) {
   return orientations;
 }
 
+std::vector<BodySpec> bodies_at(std::vector<BodySpec> bodies, Frame const& frame) {
+  auto const positions = points_of(frame, "body/position");
+  auto const orientations = orientations_of(frame);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    bodies[b].position = positions.at(b);
+    bodies[b].orientation = orientations.at(b);
+  }
+  return bodies;
+}
+
 }  // namespace asterflow

@@ -1,6 +1,7 @@
 #pragma once
 // Access to the arrays of a stored state by name; names and shapes are those of docs/trajectory.md.
 
+#include "body/body_spec.hpp"
 #include "io/trajectory.hpp"
 
 #include <Eigen/Geometry>
@@ -15,5 +16,8 @@ PointArray points_of(Frame const& frame, std::string const& name);              
 std::vector<double> numbers_of(Frame const& frame, std::string const& name);      // [n]
 std::vector<std::int64_t> integers_of(Frame const& frame, std::string const& name);  // [n]
 std::vector<Eigen::Quaterniond> orientations_of(Frame const& frame);              // of the bodies
+
+// The bodies of a scene where they are in a stored state.
+std::vector<BodySpec> bodies_at(std::vector<BodySpec> bodies, Frame const& frame);
 
 }  // namespace asterflow

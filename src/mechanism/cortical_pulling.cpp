@@ -1,7 +1,7 @@
 #include "mechanism/cortical_pulling.hpp"
 
 #include "base/random.hpp"
-#include "mechanism/stored_values.hpp"
+#include "base/stored_values.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "mechanism/pushing.hpp"
 
-#include "mechanism/stored_values.hpp"
+#include "base/stored_values.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

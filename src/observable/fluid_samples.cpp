@@ -14,17 +14,6 @@ namespace {
 constexpr int n_spread = 400;
 constexpr double margin = 0.3;    // um, to the surfaces
 
-PlacedScene placed_scene(Scene const& scene, Frame const& frame) {
-  auto bodies = scene.bodies;
-  auto const positions = points_of(frame, "body/position");
-  auto const orientations = orientations_of(frame);
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    bodies[b].position = positions.at(b);
-    bodies[b].orientation = orientations.at(b);
-  }
-  return {bodies, scene.periphery ? &scene.periphery->shape : nullptr};
-}
-
 // The additive sequence with the roots of x^4 = x + 1, evenly spread in the unit cube.
 Vec3d evenly_spread(int i) {
   constexpr double g = 1.2207440846057596;
@@ -69,7 +58,7 @@ void add_beside_fibers(StoredFibers const& fibers, PlacedScene const& placed, Fl
 }  // namespace
 
 FluidSamples fluid_samples(Scene const& scene, Frame const& frame, StoredFibers const& fibers) {
-  PlacedScene const placed = placed_scene(scene, frame);
+  PlacedScene const placed(bodies_at(scene.bodies, frame), scene.periphery ? &scene.periphery->shape : nullptr);
   Vec3d const centre = placed.periphery || placed.bodies.empty() ? Vec3d{} : placed.bodies.front().position();
   double const reach = placed.periphery         ? placed.periphery->size()
                        : placed.bodies.empty() ? 10.0
