@@ -45,8 +45,8 @@ class FiberResponse {
   // `nodes`, `weights` [n_node]: overwritten by the predicted positions and the lengths that the nodes stand for, um.
   void prepare(FiberStep const& step, Centreline const& predicted, ConstPoints history, Points nodes, Vector weights);
 
-  // f += R u + C q, load += D u - S q. Without a body q and load are not touched.
-  void add_linear(ConstPoints u, Vector6 const& q, Points f, Vector6& load) const;
+  // f += R u + C q, load += D u - S q. Without a body q and load are not touched; null: no load is wanted.
+  void add_linear(ConstPoints u, Vector6 const& q, Points f, Vector6* load) const;
   // load += D u
   void add_load(ConstPoints u, Vector6& load) const;
   // f += f_0 without what the motors' cargo gives back, load += l_0.

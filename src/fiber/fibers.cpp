@@ -172,9 +172,10 @@ void Fibers::add_linear_response(ConstPoints u, std::span<Vector6 const> q, Poin
     std::size_t const first = first_node_[i], n = fiber.properties.n_node;
     Vector6 const motion = fiber.plan.site.is_attached() ? q[fiber.plan.site.body] : Vector6::Zero();
     fiber_loads_[i].setZero();
-    fiber.response.add_linear(u.subspan(first, n), motion, f.subspan(first, n), fiber_loads_[i]);
+    fiber.response.add_linear(u.subspan(first, n), motion, f.subspan(first, n),
+                              loads.empty() ? nullptr : &fiber_loads_[i]);
   });
-  add_to_bodies(loads);
+  if (!loads.empty()) add_to_bodies(loads);
 }
 
 void Fibers::add_loads(ConstPoints u, std::span<Vector6> loads) const {

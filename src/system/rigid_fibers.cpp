@@ -75,7 +75,7 @@ void RigidFibers::add_linear_response(ConstPoints u, std::span<Vector6 const> mo
       f[j] += force;
       received -= load(fiber, j, force);
     }
-    if (fiber.hold == Hold::body) loads[fiber.body] += received;
+    if (fiber.hold == Hold::body && !loads.empty()) loads[fiber.body] += received;
   }
 }
 
