@@ -38,7 +38,9 @@ Vector6 rotated(Matrix3 const& rotation, Vector6 const& v) {
 }  // namespace
 
 Radiation::Radiation(std::vector<Flow> body_flows, Flow periphery_flow, RadiationOptions options)
-    : bodies_(std::move(body_flows)), periphery_(std::move(periphery_flow)), options_(std::move(options)) {}
+    : bodies_(std::move(body_flows)), periphery_(std::move(periphery_flow)), options_(std::move(options)) {
+  for (Flow const& body : bodies_) mobilities_.push_back(body->resistance().inverse());
+}
 
 Radiation::~Radiation() = default;
 
@@ -60,11 +62,15 @@ void Radiation::set_geometry(FiberNodes const& fibers, std::vector<RigidPose> co
 
   ConstPoints const all = nodes_;
   body_targets_.resize(bodies_.size());
-  PointArray others;
+  body_neighbours_.resize(bodies_.size());
+  PointArray fluid, neighbours;
+  fluid.assign(all.begin(), all.begin() + first_.front());
+  fluid.insert(fluid.end(), all.begin() + first_.back(), all.end());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    others.assign(all.begin(), all.begin() + first_[b]);
-    others.insert(others.end(), all.begin() + first_[b + 1], all.end());
-    bodies_[b]->plan(to_body_frame(poses_[b], others), body_targets_[b]);
+    neighbours.assign(all.begin() + first_.front(), all.begin() + first_[b]);
+    neighbours.insert(neighbours.end(), all.begin() + first_[b + 1], all.begin() + first_.back());
+    bodies_[b]->plan(to_body_frame(poses_[b], fluid), body_targets_[b]);
+    bodies_[b]->plan(to_body_frame(poses_[b], neighbours), body_neighbours_[b]);
   }
   if (periphery_) periphery_->plan(all.first(first_.back()), periphery_targets_);
 
@@ -82,13 +88,22 @@ void Radiation::set_geometry(FiberNodes const& fibers, std::vector<RigidPose> co
   seconds_.geometry += timer.seconds();
 }
 
-Vector6 Radiation::load_of_incident(std::size_t body, ConstPoints incident) const {
+Vector6 Radiation::load_in_body_frame(std::size_t body, ConstPoints incident) const {
   auto const own = incident.subspan(first_[body], first_[body + 1] - first_[body]);
-  Matrix3 const& rotation = poses_[body].rotation;
-  Matrix3 const back = rotation.transpose();
+  Matrix3 const back = poses_[body].rotation.transpose();
   PointArray local(own.size());
   for (std::size_t i = 0; i < own.size(); ++i) local[i] = back * own[i];
-  return rotated(rotation, options_.viscosity * bodies_[body]->load(local));
+  return bodies_[body]->load(local);
+}
+
+Vector6 Radiation::load_of_incident(std::size_t body, ConstPoints incident) const {
+  return rotated(poses_[body].rotation, options_.viscosity * load_in_body_frame(body, incident));
+}
+
+// When the flow at the nodes of a body becomes another.
+Vector6 Radiation::motion_at_same_force(std::size_t body, Vector6 const& motion, ConstPoints before, ConstPoints now) const {
+  Vector6 const change = load_in_body_frame(body, now) - load_in_body_frame(body, before);
+  return motion + rotated(poses_[body].rotation, mobilities_[body] * change);
 }
 
 PointArray Radiation::wall_velocity(std::size_t body, Vector6 const& motion, ConstPoints incident) const {
@@ -120,14 +135,28 @@ void Radiation::add_fibers(ConstPoints force_density, Exchange kind, Points rece
   });
 }
 
-void Radiation::add_bodies(std::vector<Vector6> const& motions, ConstPoints incident, Exchange kind, Points received) {
+void Radiation::add_bodies_to_each_other(std::vector<Vector6> const& motions, ConstPoints incident, Exchange kind,
+                                         Points received) {
+  if (bodies_.size() < 2) return;
   PointArray flow;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    flow.assign(body_targets_[b].size(), Vec3d{});
-    add_flow(*bodies_[b], kind, wall_velocity(b, motions[b], incident), body_targets_[b], flow);
-    std::size_t const skipped = first_[b + 1] - first_[b];
+    flow.assign(body_neighbours_[b].size(), Vec3d{});
+    add_flow(*bodies_[b], kind, wall_velocity(b, motions[b], incident), body_neighbours_[b], flow);
+    std::size_t const before = first_[b] - first_.front(), own = first_[b + 1] - first_[b];
     for (std::size_t i = 0; i < flow.size(); ++i)
-      received[i < first_[b] ? i : i + skipped] += poses_[b].rotation * flow[i];
+      received[first_.front() + i + (i < before ? 0 : own)] += poses_[b].rotation * flow[i];
+  }
+}
+
+// `received` is complete at the bodies and is read there.
+void Radiation::add_bodies_to_others(std::vector<Vector6> const& motions, Exchange kind, Points received) {
+  PointArray flow;
+  std::size_t const n_body_node = first_.back() - first_.front();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    flow.assign(body_targets_[b].size(), Vec3d{});
+    add_flow(*bodies_[b], kind, wall_velocity(b, motions[b], received), body_targets_[b], flow);
+    for (std::size_t i = 0; i < flow.size(); ++i)
+      received[i < first_.front() ? i : i + n_body_node] += poses_[b].rotation * flow[i];
   }
 }
 
@@ -136,17 +165,20 @@ void Radiation::add_periphery(ConstPoints incident, Exchange kind, Points receiv
     add_flow(*periphery_, kind, periphery_wall_velocity(incident), periphery_targets_, received.first(first_.back()));
 }
 
-void Radiation::exchange(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,
-                         Points received, Exchange kind) {
+void Radiation::exchange(ConstPoints force_density, std::vector<Vector6> const& motions, std::vector<bool> const& is_free,
+                         ConstPoints incident, Points received, Exchange kind) {
   ASTERFLOW_REQUIRE(incident.size() == nodes_.size() && received.size() == nodes_.size());
-  std::fill(received.begin(), received.end(), Vec3d{});
   Timer timer;
   bool const is_rough = kind == Exchange::rough;
   if (n_fiber_nodes_ > 0) add_fibers(force_density, kind, received);
   (is_rough ? seconds_.rough_sums : seconds_.sums) += timer.seconds();
   timer.restart();
-  add_bodies(motions, incident, kind, received);
   add_periphery(incident, kind, received);
+  add_bodies_to_each_other(motions, incident, kind, received);
+  std::vector<Vector6> now = motions;
+  for (std::size_t b = 0; b < now.size(); ++b)
+    if (is_free[b]) now[b] = motion_at_same_force(b, motions[b], incident, received);
+  add_bodies_to_others(now, kind, received);
   (is_rough ? seconds_.rough_surfaces : seconds_.surfaces) += timer.seconds();
 }
 

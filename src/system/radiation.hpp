@@ -60,12 +60,15 @@ class Radiation {
   // give for a sphere. A body that moves with q exerts resistance q - this on the fluid.
   Vector6 load_of_incident(std::size_t body, ConstPoints incident) const;
 
-  // received [n_node] = flow of all other objects.
+  // received [n_node] += flow of all other objects; on entry the imposed flow.
   //   force_density [n_fiber_node]  pN/um, on the fluid
-  //   motions [n_body]              velocity and angular velocity of each body
+  //   motions, is_free [n_body]     velocity and angular velocity of each body; whether its load determines them
   //   incident [n_node]             um/s, read at the nodes of bodies and periphery
-  void exchange(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,
-                Points received, Exchange kind = Exchange::accurate);
+  // Fibers and periphery receive the flow by which a body answers to what it receives now, a free one at the force that it
+  // exerts with `motions` and `incident`. The fixed point incident = received is that of the answers to `incident`, but half
+  // as many iterations lead there.
+  void exchange(ConstPoints force_density, std::vector<Vector6> const& motions, std::vector<bool> const& is_free,
+                ConstPoints incident, Points received, Exchange kind = Exchange::accurate);
 
   // Velocity of all objects at points of the fluid, added.
   void add_velocity(ConstPoints force_density, std::vector<Vector6> const& motions, ConstPoints incident,
@@ -80,10 +83,13 @@ class Radiation {
   Seconds const& seconds() const { return seconds_; }
 
  private:
+  Vector6 load_in_body_frame(std::size_t body, ConstPoints incident) const;  // over viscosity
   PointArray wall_velocity(std::size_t body, Vector6 const& motion, ConstPoints incident) const;
+  Vector6 motion_at_same_force(std::size_t body, Vector6 const& motion, ConstPoints before, ConstPoints now) const;
   PointArray periphery_wall_velocity(ConstPoints incident) const;
   void add_fibers(ConstPoints force_density, Exchange kind, Points received);
-  void add_bodies(std::vector<Vector6> const& motions, ConstPoints incident, Exchange kind, Points received);
+  void add_bodies_to_each_other(std::vector<Vector6> const& motions, ConstPoints incident, Exchange kind, Points received);
+  void add_bodies_to_others(std::vector<Vector6> const& motions, Exchange kind, Points received);
   void add_periphery(ConstPoints incident, Exchange kind, Points received);
 
   std::vector<Flow> bodies_;
@@ -92,13 +98,15 @@ class Radiation {
   std::unique_ptr<Evaluator> stokeslets_;        // none while there are no fibers
   std::unique_ptr<Evaluator> rough_stokeslets_;  // nor while accurate ones are as cheap
 
+  std::vector<Matrix6> mobilities_;  // of each body alone in its frame, times viscosity
   std::vector<RigidPose> poses_;
   std::vector<std::size_t> first_fiber_node_;  // [n_fiber + 1]
   std::vector<std::size_t> first_;             // [n_body + 1] first node of each body, then of the periphery
   std::size_t n_fiber_nodes_ = 0;
   PointArray nodes_;
   std::vector<double> weights_;
-  std::vector<DirichletFlow::Targets> body_targets_;  // per body: all nodes but its own
+  std::vector<DirichletFlow::Targets> body_targets_;    // per body: nodes of fibers and periphery
+  std::vector<DirichletFlow::Targets> body_neighbours_;  // per body: nodes of the other bodies
   DirichletFlow::Targets periphery_targets_;          // all nodes but its own
   PointArray strengths_;                              // [n_fiber_node] pN over viscosity
   Seconds seconds_;

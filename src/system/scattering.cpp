@@ -15,6 +15,7 @@ Scattering::Scattering(FiberAnswers const& fibers, std::vector<BodyDrive> bodies
   for (auto const& body : bodies_) {
     resistances.push_back(body.resistance);
     poses.push_back(body.pose);
+    is_free_.push_back(body.is_free);
   }
   fibers_.add_body_resistance(resistances);
   for (auto const& resistance : resistances) held_resistance_.emplace_back(resistance);
@@ -36,20 +37,21 @@ void Scattering::answer(ConstPoints u, std::vector<Vector6> loads, bool affine, 
     else if (affine)
       motions[b] = body.value;
   }
-  fibers_.add_linear_response(u, motions, force_density, loads);
+  fibers_.add_linear_response(u, motions, force_density, {});
 }
 
-void Scattering::apply(ConstVector z, Vector result, bool affine, Exchange kind) const {
-  ConstPoints const incident = as_points(z);
+// received += what all objects send in answer to z.
+void Scattering::add_answer(ConstPoints z, bool affine, Points received, Exchange kind) const {
   std::vector<Vector6> loads, motions;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) loads.push_back(radiation_->load_of_incident(b, incident));
+  for (std::size_t b = 0; b < bodies_.size(); ++b) loads.push_back(radiation_->load_of_incident(b, z));
   PointArray force_density(radiation_->n_fiber_nodes());
-  answer(incident.first(force_density.size()), loads, affine, force_density, motions);
-  radiation_->exchange(force_density, motions, incident, as_points(result), kind);
+  answer(z.first(force_density.size()), loads, affine, force_density, motions);
+  radiation_->exchange(force_density, motions, is_free_, z, received, kind);
 }
 
 void Scattering::apply_equation(ConstVector z, Vector result, Exchange kind) const {
-  apply(z, result, false, kind);
+  std::fill(result.begin(), result.end(), 0.0);
+  add_answer(as_points(z), false, as_points(result), kind);
   for (std::size_t i = 0; i < z.size(); ++i) result[i] = z[i] - result[i];
 }
 
@@ -99,9 +101,10 @@ GmresResult Scattering::correct(ConstVector residual, double reference, Vector c
     options.monitor = [&](double outer_residual) { to_go = options_.tolerance / outer_residual; };
     auto const rough_solve = [&](ConstVector r, Vector result) {
       std::fill(result.begin(), result.end(), 0.0);
-      double const tolerance = std::max(options_.inner_tolerance, 0.3 * to_go);
+      double const solves_to_go = std::max(1.0, std::ceil(std::log(to_go) / std::log(options_.rough_gain)));
       inner_iterations += solve_gmres(std::ref(equation), recall, r, result,
-                                      {.tolerance = tolerance, .max_iterations = options_.max_iterations})
+                                      {.tolerance = 0.7 * std::pow(std::min(to_go, 1.0), 1.0 / solves_to_go),
+                                       .max_iterations = options_.max_iterations})
                               .iterations;
     };
     result = solve_gmres(accurate, rough_solve, residual, correction, options);
@@ -119,9 +122,10 @@ ScatteringSolution Scattering::solve(ConstPoints background, ConstPoints guess) 
   solution.incident.assign(n, Vec3d{});
   if (radiation_) {
     PointArray image(n), correction(n);
-    auto const apply_to_incident = [&](Exchange kind) {
-      apply(as_vector(solution.incident), as_vector(image), true, kind);
-      for (std::size_t i = 0; i < background.size(); ++i) image[i] += background[i];
+    auto const apply_to_incident = [&](Exchange kind) {  // image = L z + b
+      std::fill(image.begin(), image.end(), Vec3d{});
+      std::copy(background.begin(), background.end(), image.begin());
+      add_answer(solution.incident, true, image, kind);
     };
     apply_to_incident(guess.empty() ? Exchange::accurate : Exchange::rough);  // b; of the residual without a guess, else its size
     double const scale = flat(ConstPoints(image)).norm();

@@ -4,7 +4,8 @@
 //   f = f_0 + R z + C q       fibers, elastic and inextensible, on bodies that move with q = (U, Omega)
 //   (K + sum S) q = F_ext + faxen(z) + sum (l_0 + D z)      each free body with the fibers that it holds
 // and their flows make up the incident flow of the others:
-//   z = exchange(f(z), q(z), z) + background  =:  L z + b.
+//   z = exchange(f(z), q(z), z) + background  =:  L z + b,
+// where bodies answer to what reaches them from z, not to z (system/radiation.hpp).
 // GMRES solves (I - L) z = b. Where the sums are to be accurate, its preconditioner is GMRES on the same equation with rough
 // sums, which cost a fraction: each outer iteration gains the digits that rough sums have. The rough equation is
 // preconditioned by what earlier solves have learnt (linalg/recycling.hpp): an aster as a whole yields to a flow far more
@@ -25,7 +26,7 @@ class FiberAnswers {
  public:
   virtual ~FiberAnswers() = default;
   virtual FiberNodes nodes() const = 0;
-  // f += R u + C q, loads += D u - S q
+  // f += R u + C q, loads += D u - S q; empty: no loads are wanted
   virtual void add_linear_response(ConstPoints u, std::span<Vector6 const> motions, Points f,
                                    std::span<Vector6> loads) const = 0;
   // loads += D u
@@ -47,7 +48,7 @@ struct BodyDrive {
 struct ScatteringOptions {
   double tolerance = 1e-6;  // relative residual of z
   int max_iterations = 200;
-  double inner_tolerance = 3e-3;  // of the equation with rough sums
+  double rough_gain = 1e-3;  // factor by which a solve with rough sums can lower the residual
 };
 
 struct ScatteringSolution {
@@ -82,14 +83,15 @@ class Scattering {
               std::vector<Vector6>& motions) const;
 
  private:
-  // result = L z, + b if affine
-  void apply(ConstVector z, Vector result, bool affine, Exchange kind) const;
+  // received += what all objects send in answer to z; affine: with what remains at zero flow
+  void add_answer(ConstPoints z, bool affine, Points received, Exchange kind) const;
   // result = (I - L) z
   void apply_equation(ConstVector z, Vector result, Exchange kind) const;
   GmresResult correct(ConstVector residual, double reference, Vector correction, int& inner_iterations);
 
   FiberAnswers const& fibers_;
   std::vector<BodyDrive> bodies_;
+  std::vector<bool> is_free_;
   std::vector<Eigen::PartialPivLU<Matrix6>> held_resistance_;  // K + sum S
   Radiation* radiation_;
   Recycling* memory_;

@@ -54,10 +54,9 @@ void StoredFlow::velocity(ConstPoints points, Points velocity) const {
 
 PointArray StoredFlow::incident_at_fibers() const {
   PointArray received(incident_.size());
-  radiation_->exchange(force_density_, motions_, incident_, received);
+  if (scene_.background) BackgroundFlow(*scene_.background).add_velocity(radiation_->nodes(), received);
+  radiation_->exchange(force_density_, motions_, std::vector<bool>(motions_.size(), false), incident_, received);
   received.resize(force_density_.size());
-  if (scene_.background)
-    BackgroundFlow(*scene_.background).add_velocity(radiation_->nodes().first(received.size()), received);
   return received;
 }
 
