@@ -60,7 +60,7 @@ struct ScatteringSolution {
 };
 
 // What a sequence of similar problems remembers: more directions save few iterations (bench_step).
-inline constexpr int recycled_directions = 60;
+inline constexpr int recycled_directions = 30;
 
 class Scattering {
  public:
