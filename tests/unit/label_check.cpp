@@ -12,9 +12,14 @@ namespace {
 
 std::mutex guard;
 std::set<std::string> wrong_labels;
+std::map<std::string, int>* counts = nullptr;  // while somebody counts
 
 void check_label(char const* label) {
   std::string_view const text = label;
+  if (counts) {
+    std::scoped_lock lock(guard);
+    ++(*counts)[label];
+  }
   if (text.starts_with("asterflow::") || text.starts_with("Kokkos::")) return;
   if (text == "[unlabeled]") return;  // memory that Kokkos takes for its own thread teams; a view would say ""
   std::scoped_lock lock(guard);
@@ -36,6 +41,14 @@ class LabelEnvironment : public testing::Environment {
 };
 
 }  // namespace
+
+std::map<std::string, int> launches_during(std::function<void()> const& action) {
+  std::map<std::string, int> launches;
+  counts = &launches;
+  action();
+  counts = nullptr;
+  return launches;
+}
 
 void watch_kokkos_labels() {
   namespace tools = Kokkos::Tools::Experimental;
