@@ -18,6 +18,7 @@ void read_material(Table& table, FiberMaterialSpec& material) {
   table.read_choice<MinusEnd>("minus_end", material.minus_end,
                               {{"free", MinusEnd::free}, {"hinged", MinusEnd::hinged}, {"clamped", MinusEnd::clamped}});
   table.read("growing", material.growing);
+  table.read("nonlocal", material.nonlocal);
 }
 
 void read_direction(Table& table, char const* key, Vec3d& direction) {

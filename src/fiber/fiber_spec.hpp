@@ -18,6 +18,7 @@ struct FiberMaterialSpec {
   int nodes = 0;                        // hydrodynamic nodes, 6 to 64; 0: from its length and the accuracy of the run
   MinusEnd minus_end = MinusEnd::free;  // free | hinged | clamped
   bool growing = false;                 // follows [dynamic_instability]
+  bool nonlocal = false;                // feels the flow of its own forces beyond local drag (own_flow.hpp)
 };
 
 struct FiberSpec {

@@ -39,6 +39,7 @@ std::size_t Fibers::add(FiberProperties const& properties, MinusEndSite const& s
   fiber.past[0] = fiber.past[1] = fiber.past[2] = fiber.predicted = fiber.trial = fiber.newborn = shape;
   fiber.tension.assign(properties.n_node, 0.0);
   fiber.trial_tension = fiber.tension;
+  has_nonlocal_ |= properties.is_nonlocal;
   lay_out();
   return fibers_.size() - 1;
 }
@@ -152,6 +153,8 @@ void Fibers::prepare_again(std::size_t i, std::span<BodyMotionMap const> bodies)
   std::size_t const first = first_node_[i], n = own.n_node;
   fiber.response.prepare(step, fiber.predicted, fiber.history, Points(nodes_).subspan(first, n),
                          Vector(weights_).subspan(first, n));
+  if (own.is_nonlocal)
+    fiber.own_flow.prepare(*step.basis, fiber.predicted, ConstPoints(nodes_).subspan(first, n), step.mobility, viscosity_);
 }
 
 void Fibers::node_answer(std::size_t i, ConstPoints u, Vector6 const& q, Points positions) const {
@@ -204,6 +207,14 @@ void Fibers::add_affine_response(Points f, std::span<Vector6> loads) const {
 void Fibers::add_body_resistance(std::span<Matrix6> resistances) const {
   for (Fiber const& fiber : fibers_)
     if (fiber.plan.site.is_attached()) resistances[fiber.plan.site.body] += fiber.response.body_resistance();
+}
+
+void Fibers::add_own_flow(ConstPoints f, Points u) const {
+  if (!has_nonlocal_) return;
+  parallel_for("Fibers::add_own_flow", static_cast<long>(count()), [&](long i) {
+    std::size_t const first = first_node_[i], n = fibers_[i].properties.n_node;
+    if (fibers_[i].properties.is_nonlocal) fibers_[i].own_flow.add(f.subspan(first, n), u.subspan(first, n));
+  });
 }
 
 void Fibers::advance(ConstPoints u, std::span<Vector6 const> q, std::span<RigidPose const> poses) {

@@ -11,6 +11,7 @@
 #include "fiber/centreline.hpp"
 #include "fiber/fiber_ends.hpp"
 #include "fiber/fiber_response.hpp"
+#include "fiber/own_flow.hpp"
 
 #include <span>
 #include <vector>
@@ -23,6 +24,7 @@ struct FiberProperties {
   FiberLoad load{};                // unless a step plans another one
   TipLoad tip{};
   int n_node = 16;  // hydrodynamic nodes
+  bool is_nonlocal = false;
 };
 
 // Local slender-body mobility c = ln(1 / (e eps^2)) / (8 pi mu), eps = radius / length, um^2 / (pN s). Slender-body
@@ -76,6 +78,8 @@ class Fibers {
   void add_affine_response(Points f, std::span<Vector6> loads) const;
   // resistances [n_body] += S, what attached fibers add to the resistance of their body at fixed incident flow.
   void add_body_resistance(std::span<Matrix6> resistances) const;
+  // u [n_node] += what nonlocal fibers feel of the flow of their own force density f [n_node].
+  void add_own_flow(ConstPoints f, Points u) const;
 
   // Trial shapes from the solution and the bodies' poses at the end of the step.
   void advance(ConstPoints u, std::span<Vector6 const> q, std::span<RigidPose const> poses);
@@ -112,6 +116,7 @@ class Fibers {
     EndForces ends, trial_ends;
     FiberLoad load;
     FiberResponse response;
+    OwnFlow own_flow;  // of a nonlocal fiber
     double error = 0.0;  // um
   };
 
@@ -126,6 +131,7 @@ class Fibers {
   void estimate_error(Fiber& fiber) const;
 
   double viscosity_;
+  bool has_nonlocal_ = false;
   double dt_ = 0.0, dt_1_ = 0.0, dt_2_ = 0.0;  // s, this step and the two accepted before it
   std::vector<Fiber> fibers_;
   std::vector<std::size_t> first_node_{0};

@@ -43,6 +43,7 @@ Scene read_all(Table root) {
     background->fail("is a flow in unbounded fluid and cannot be combined with interactions = \"confined\"");
   check_names(tables, scene);
   check_growth(tables, scene);
+  check_nonlocal(tables, scene);
   check_cortex_mechanisms(tables, scene);
   check_places(tables, scene);
   return scene;

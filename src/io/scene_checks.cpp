@@ -91,6 +91,15 @@ void check_growth(SceneTables const& tables, Scene const& scene) {
     if (scene.asters[i].material.growing) tables.asters[i].fail("growing", "needs a table [dynamic_instability]");
 }
 
+void check_nonlocal(SceneTables const& tables, Scene const& scene) {
+  if (scene.run.interactions != Interactions::local) return;
+  char const* const words = "needs interactions = \"open\" or \"confined\"; with \"local\" drag is local";
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i)
+    if (scene.fibers[i].material.nonlocal) tables.fibers[i].fail("nonlocal", words);
+  for (std::size_t i = 0; i < scene.asters.size(); ++i)
+    if (scene.asters[i].material.nonlocal) tables.asters[i].fail("nonlocal", words);
+}
+
 void check_cortex_mechanisms(SceneTables const& tables, Scene const& scene) {
   for (auto const& table : {tables.pushing, tables.cortical_pulling}) {
     if (!table) continue;

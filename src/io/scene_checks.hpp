@@ -17,6 +17,8 @@ struct SceneTables {
 
 void check_names(SceneTables const& tables, Scene const& scene);
 void check_growth(SceneTables const& tables, Scene const& scene);
+// A fiber's own flow is exchanged with the flows of all others.
+void check_nonlocal(SceneTables const& tables, Scene const& scene);
 // What plus ends do at the cortex needs a cortex and plus ends that grow.
 void check_cortex_mechanisms(SceneTables const& tables, Scene const& scene);
 void check_places(SceneTables const& tables, Scene const& scene);

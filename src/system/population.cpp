@@ -22,6 +22,7 @@ FiberProperties properties_of(Scene const& scene, FiberMaterialSpec const& mater
   FiberProperties properties;
   properties.bending_rigidity = material.bending_rigidity;
   properties.radius = material.radius;
+  properties.is_nonlocal = material.nonlocal;
   properties.n_node = material.nodes > 0 ? material.nodes : default_node_count(to_resolve, scene.run.accuracy);
   return properties;
 }

@@ -43,7 +43,9 @@ RigidFibers::RigidFibers(Fibers const& fibers, double viscosity, std::vector<Rig
       for (std::size_t j = n; j < nodes_.size(); ++j)
         fiber.resistance.col(k) +=
             load(fiber, j, drag(fiber, j, velocity_of_motion(Vector6::Unit(k), nodes_[j] - fiber.origin)));
-    fibers_.push_back(fiber);
+    if (properties.is_nonlocal)
+      fiber.own_flow.emplace().prepare(basis, shape, ConstPoints(nodes_).subspan(n), fiber.mobility, viscosity);
+    fibers_.push_back(std::move(fiber));
   }
 }
 
@@ -84,6 +86,13 @@ void RigidFibers::add_loads(ConstPoints u, std::span<Vector6> loads) const {
     if (auto const& fiber = fibers_[i]; fiber.hold == Hold::body)
       for (std::size_t j = first_[i]; j < first_[i + 1]; ++j)
         loads[fiber.body] += load(fiber, j, drag(fiber, j, u[j]));
+}
+
+void RigidFibers::add_own_flow(ConstPoints force_density, Points u) const {
+  for (std::size_t i = 0; i < fibers_.size(); ++i) {
+    std::size_t const first = first_[i], n = first_[i + 1] - first;
+    if (fibers_[i].own_flow) fibers_[i].own_flow->add(force_density.subspan(first, n), u.subspan(first, n));
+  }
 }
 
 void RigidFibers::add_body_resistance(std::span<Matrix6> resistances) const {

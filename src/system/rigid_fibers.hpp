@@ -7,6 +7,8 @@
 #include "fiber/fibers.hpp"
 #include "system/scattering.hpp"
 
+#include <optional>
+
 namespace asterflow {
 
 class RigidFibers final : public FiberAnswers {
@@ -17,6 +19,7 @@ class RigidFibers final : public FiberAnswers {
   void add_linear_response(ConstPoints u, std::span<Vector6 const> motions, Points f,
                            std::span<Vector6> loads) const override;
   void add_loads(ConstPoints u, std::span<Vector6> loads) const override;
+  void add_own_flow(ConstPoints force_density, Points u) const override;
   void add_affine_response(Points, std::span<Vector6>) const override {}
   void add_body_resistance(std::span<Matrix6> resistances) const override;
 
@@ -28,6 +31,7 @@ class RigidFibers final : public FiberAnswers {
     Vec3d origin;          // of its rigid motions: the body's centre or the fiber's middle, um
     double mobility;       // c, um^2 / (pN s)
     Matrix6 resistance;    // of the fiber alone about the origin
+    std::optional<OwnFlow> own_flow;
   };
 
   Vec3d drag(Fiber const& fiber, std::size_t node, Vec3d velocity) const;

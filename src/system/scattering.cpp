@@ -47,6 +47,7 @@ void Scattering::add_answer(ConstPoints z, bool affine, Points received, Exchang
   PointArray force_density(radiation_->n_fiber_nodes());
   answer(z.first(force_density.size()), loads, affine, force_density, motions);
   radiation_->exchange(force_density, motions, is_free_, z, received, kind);
+  fibers_.add_own_flow(force_density, received.first(force_density.size()));
 }
 
 void Scattering::apply_equation(ConstVector z, Vector result, Exchange kind) const {

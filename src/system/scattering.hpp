@@ -31,6 +31,8 @@ class FiberAnswers {
                                    std::span<Vector6> loads) const = 0;
   // loads += D u
   virtual void add_loads(ConstPoints u, std::span<Vector6> loads) const = 0;
+  // u += what fibers feel of their own force density beyond local drag
+  virtual void add_own_flow(ConstPoints force_density, Points u) const = 0;
   // f += f_0, loads += l_0
   virtual void add_affine_response(Points f, std::span<Vector6> loads) const = 0;
   // resistances += sum of S over the fibers that a body holds

@@ -24,6 +24,7 @@ class SteppedFibers final : public FiberAnswers {
     fibers_.add_linear_response(u, motions, f, loads);
   }
   void add_loads(ConstPoints u, std::span<Vector6> loads) const override { fibers_.add_loads(u, loads); }
+  void add_own_flow(ConstPoints f, Points u) const override { fibers_.add_own_flow(f, u); }
   void add_affine_response(Points f, std::span<Vector6> loads) const override {
     fibers_.add_affine_response(f, loads);
   }
