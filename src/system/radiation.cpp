@@ -72,7 +72,10 @@ void Radiation::set_geometry(FiberNodes const& fibers, std::vector<RigidPose> co
     bodies_[b]->plan(to_body_frame(poses_[b], fluid), body_targets_[b]);
     bodies_[b]->plan(to_body_frame(poses_[b], neighbours), body_neighbours_[b]);
   }
-  if (periphery_) periphery_->plan(all.first(first_.back()), periphery_targets_);
+  if (periphery_) {
+    periphery_->plan(all.first(first_.back()), periphery_targets_);
+    images_.place(periphery_->surface(), fibers.positions, fibers.weights, first_fiber_node_);
+  }
 
   if (n_fiber_nodes_ > 0) {
     if (!stokeslets_)
@@ -127,6 +130,11 @@ void Radiation::add_fibers(ConstPoints force_density, Exchange kind, Points rece
   for (std::size_t i = 0; i < n_fiber_nodes_; ++i) strengths_[i] = (scale * weights_[i]) * force_density[i];
   bool const is_rough = kind == Exchange::rough && rough_stokeslets_;
   (is_rough ? rough_stokeslets_ : stokeslets_)->add_velocity(strengths_, received);
+  if (is_rough)
+    images_.add_velocity<float>(strengths_, nodes_, received);
+  else
+    images_.add_velocity<double>(strengths_, nodes_, received);
+  images_.add_own_resolution(strengths_, nodes_, received);
   parallel_for("Radiation::own_flow", static_cast<long>(first_fiber_node_.size()) - 1, [&](long fiber) {
     std::size_t const begin = first_fiber_node_[fiber], end = first_fiber_node_[fiber + 1];
     for (std::size_t i = begin; i < end; ++i)
@@ -191,6 +199,7 @@ void Radiation::add_velocity(ConstPoints force_density, std::vector<Vector6> con
       strengths[i] = (weights_[i] / options_.viscosity) * force_density[i];
     sum->set_points(ConstPoints(nodes_).first(n_fiber_nodes_), targets);
     sum->add_velocity(strengths, velocity);
+    images_.add_velocity<double>(strengths, targets, velocity);
   }
   PointArray local(targets.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -203,7 +212,8 @@ void Radiation::add_velocity(ConstPoints force_density, std::vector<Vector6> con
 }
 
 std::size_t Radiation::memory() const {
-  std::size_t bytes = sizeof(Vec3d) * (nodes_.size() + strengths_.size()) + sizeof(double) * weights_.size();
+  std::size_t bytes = sizeof(Vec3d) * (nodes_.size() + strengths_.size()) + sizeof(double) * weights_.size() +
+                      images_.memory();
   for (auto const& flow : bodies_) bytes += flow->memory();
   if (periphery_) bytes += periphery_->memory();
   return bytes + (stokeslets_ ? stokeslets_->memory() : 0) +
