@@ -38,6 +38,15 @@ int surface_nodes(ShapeSpec const& shape, int order_in_scene, double accuracy) {
   return (order + 1) * (2 * order + 2);
 }
 
+// What the nodes of a surface cannot honour.
+void print_limit(std::string const& name, ShapeSpec const& spec, int order_in_scene, double accuracy) {
+  int const order = surface_order(spec, order_in_scene, accuracy);
+  double const resolved = resolved_accuracy(*make_shape(spec), order);
+  if (resolved > 2.0 * accuracy)
+    print_line("note", fmt::format("{}: order {} resolves flows to about {:.0e}, not to accuracy = {:g}{}", name, order,
+                                   resolved, accuracy, order_in_scene > 0 ? "" : "; set its order to go beyond"));
+}
+
 // Prints the scene's objects; returns the number of surface nodes.
 long print_objects(Scene const& scene) {
   long n_node = 0;
@@ -49,12 +58,14 @@ long print_objects(Scene const& scene) {
     n_node += n;
     print_line("periphery", shape_words(scene.periphery->shape) +
                                 (is_flow ? fmt::format(", {} nodes", n) : ", stops fibers, no flow"));
+    if (is_flow) print_limit("periphery", scene.periphery->shape, scene.periphery->order, scene.run.accuracy);
   }
   for (auto const& body : scene.bodies) {
     int const n = surface_nodes(body.shape, body.order, scene.run.accuracy);
     n_node += n;
     print_line("body", fmt::format("\"{}\": {}, {}, {} nodes", body.name, shape_words(body.shape),
                                    body.motion == BodySpec::Motion::free ? "free" : "prescribed motion", n));
+    print_limit('"' + body.name + '"', body.shape, body.order, scene.run.accuracy);
   }
   return n_node;
 }

@@ -29,6 +29,11 @@ int shell_count(Shape const& shape, Side side, int order, double accuracy) {
   return static_cast<int>(std::min(80.0, std::max(smooth, digits / rate + 3.0)));
 }
 
+// Orders that a slender shape needs over those of a sphere, and those that gain no digit yet.
+constexpr double orders_per_digit = 3.5;
+double slenderness(Shape const& shape) { return 0.6 + 0.4 * std::sqrt(std::min(shape.aspect_ratio(), 9.0)); }
+double first_order(Shape const& shape) { return 2.0 * slenderness(shape) + (shape.axisymmetric() ? 0.0 : 3.0); }
+
 }  // namespace
 
 DirichletFlow::DirichletFlow(Surface surface, Side side, double accuracy)
@@ -126,10 +131,13 @@ std::size_t DirichletFlow::memory() const {
 
 int default_order(Shape const& shape, double accuracy) {
   double const digits = std::clamp(-std::log10(accuracy), 2.0, 12.0);
-  double const slenderness = std::sqrt(std::min(shape.aspect_ratio(), 9.0));
   int const highest = shape.axisymmetric() ? 64 : 32;  // the operator of a triaxial shape takes 1 GB at 32
-  int const margin = shape.axisymmetric() ? 0 : 3;
-  return std::clamp(static_cast<int>(std::lround((2.0 + 3.5 * digits) * (0.6 + 0.4 * slenderness))) + margin, 6, highest);
+  return std::clamp(static_cast<int>(std::lround(digits * orders_per_digit * slenderness(shape) + first_order(shape))), 6,
+                    highest);
+}
+
+double resolved_accuracy(Shape const& shape, int order) {
+  return std::pow(10.0, -(order - first_order(shape)) / (orders_per_digit * slenderness(shape)));
 }
 
 }  // namespace asterflow

@@ -69,5 +69,7 @@ class DirichletFlow {
 
 // Order whose nodes resolve the flow of objects about a third of the surface's size away to the relative accuracy.
 int default_order(Shape const& shape, double accuracy);
+// The accuracy that an order stands for in this sense.
+double resolved_accuracy(Shape const& shape, int order);
 
 }  // namespace asterflow

@@ -222,6 +222,7 @@ class BadRun(SceneTest):
             "run.interactions=confined": ["needs a [periphery]"],
             "run.evaluator=magic": ["evaluator", "auto"],
             "run.seed=-1": ["seed"],
+            "fiber.0.nonlocal=1": ["nonlocal", "true or false"],
         }
         for override, names in cases.items():
             with self.subTest(override):
@@ -263,6 +264,21 @@ class BadRun(SceneTest):
         self.expect_refusal("resume", self.folder, names=["trajectory.h5"])
         (self.folder / "trajectory.h5").write_text("text")
         self.expect_refusal("resume", self.folder, names=["trajectory.h5", "not an HDF5 file"])
+        with h5py.File(self.folder / "trajectory.h5", "w") as file:
+            file["something"] = [1, 2, 3]
+        for command in ("resume", "flow", "observe", "export"):
+            self.expect_refusal(command, self.folder, names=["trajectory.h5"])
+        with h5py.File(self.folder / "trajectory.h5") as file:
+            self.assertEqual(list(file), ["something"])
+
+    def test_refuses_a_truncated_trajectory(self):
+        self.run_scene(BALL, "--set", "run.end_time=0.5")
+        whole = self.trajectory.read_bytes()
+        for part in (0, 100, len(whole) // 2, len(whole) - 10):
+            self.trajectory.write_bytes(whole[:part])
+            for command in ("resume", "flow", "observe", "export"):
+                self.expect_refusal(command, self.out, names=["trajectory.h5"])
+            self.assertEqual(self.trajectory.read_bytes(), whole[:part])
 
     def test_a_full_disk_is_one_line(self):
         self.scene.write_text(BALL)
@@ -291,6 +307,13 @@ class Results(SceneTest):
         text = self.expect_done("check", self.scene).stdout
         for word in ("valid", "core", "fibers", "5", "interactions", "local", "unknowns", "evaluators", "first step", "memory"):
             self.assertIn(word, text)
+
+    def test_check_warns_of_what_the_nodes_cannot_resolve(self):
+        self.scene.write_text(CELL)
+        self.assertNotIn("note", self.expect_done("check", self.scene, "--quick").stdout)
+        text = self.expect_done("check", self.scene, "--quick", "--set", "body.0.order=6").stdout
+        self.assertIn('"ball": order 6 resolves flows to about', text)
+        self.assertNotIn("periphery: order", text)
 
     def test_flow_around_a_sphere_in_a_cell(self):
         self.run_scene(CELL, "--set", "run.end_time=0.5")
