@@ -6,6 +6,7 @@
 // and their flows make up the incident flow of the others:
 //   z = exchange(f(z), q(z), z) + background  =:  L z + b,
 // where bodies answer to what reaches them from z, not to z (system/radiation.hpp).
+// To a nonlocal fiber the nonlocal part of its own flow (fiber/own_flow.hpp) counts as incident.
 // GMRES solves (I - L) z = b. Where the sums are to be accurate, its preconditioner is GMRES on the same equation with rough
 // sums, which cost a fraction: each outer iteration gains the digits that rough sums have. The rough equation is
 // preconditioned by what earlier solves have learnt (linalg/recycling.hpp): an aster as a whole yields to a flow far more
