@@ -232,6 +232,8 @@ class BadRun(SceneTest):
         self.refused(CELL, "--set", "body.0.position=[3, 0, 0]", names=["[[body]] #1", "outside the periphery"])
         fiber = '[[fiber]]\nposition = [0, 0, 3]\ndirection = [0, 0, 1]\nlength = 2\n'
         self.refused(CELL + fiber, names=["[[fiber]] #1", "outside the periphery"])
+        nonlocal_fiber = fiber.replace("length = 2", "length = 0.5\nnonlocal = true")
+        self.refused(BALL + nonlocal_fiber, "--set", "run.interactions=local", names=["nonlocal", "open"])
         other = '[[body]]\nshape = "sphere"\nradius = 1\nposition = [2, 0, 0]\n'
         self.refused(BALL + other, names=["[[body]] #2", "overlaps", "ball"])
 
