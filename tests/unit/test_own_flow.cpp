@@ -71,7 +71,7 @@ TEST(OwnFlow, of_a_curved_fiber_agrees_with_an_independent_quadrature) {
     double const s = length * basis.gauss.nodes[i];
     Vec3d const t = tangent(s), f_s = density(s), along = f_s + dot(t, f_s) * t;
     Vec3d sum = 2.0 * (f_s - dot(t, f_s) * t);
-    for (auto const [begin, end] : {std::pair{0.0, s}, std::pair{s, length}})  // smooth on each side of s
+    for (auto const& [begin, end] : {std::pair{0.0, s}, std::pair{s, length}})  // smooth on each side of s
       for (int k = 0; k < 60; ++k) {
         double const at = begin + (end - begin) * rule.nodes[k];
         Vec3d const r = place(s) - place(at), g = density(at);
