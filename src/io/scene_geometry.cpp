@@ -79,7 +79,7 @@ double PlacedScene::clearance(Vec3d x) const {
 
 // Marches by the distance to the nearest surface, which cannot miss one, but at least by `least_step`.
 double PlacedScene::reach(Vec3d x, Vec3d direction, double limit) const {
-  constexpr double least_step = 0.01;  // um
+  double const least_step = 1e-5 * limit;
   double reached = 0.0;
   while (reached < limit) {
     double const step = std::min(std::max(clearance(x + reached * direction), least_step), limit - reached);

@@ -61,9 +61,10 @@ void add_scene_fibers(Scene const& scene, Fibers& fibers, std::optional<PlusEnds
     int const body = body_index(scene, aster.body);
     RigidPose const pose = pose_of(scene, body);
     auto const properties = properties_of(scene, aster.material, aster.length);
+    double const margin = scene.dynamic_instability ? scene.dynamic_instability->cortex_margin
+                                                    : std::min(DynamicInstabilitySpec{}.cortex_margin, 0.05 * aster.length);
     auto const reach = [&](MinusEndSite const& site) {
-      return placed.reach(pose.point(site.position), pose.rotation * site.direction, 1e3) -
-             scene.dynamic_instability.value_or(DynamicInstabilitySpec{}).cortex_margin;
+      return placed.reach(pose.point(site.position), pose.rotation * site.direction, 100.0 * aster.length) - margin;
     };
     for (auto const& fiber : aster_fibers(aster, aster.count, body, scene.run.seed, number, reach)) {
       auto const shape = straight_centreline(pose.point(fiber.site.position),
