@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -28,7 +29,17 @@ struct Source {
 std::string in_quotes(std::string_view word) { return fmt::format("\"{}\"", word); }
 
 // A value as the user would write it, shortened to fit a line.
-std::string written(toml::node const& node) {
+// A value as a user would write it: numbers with as few digits as tell them apart.
+std::string in_full(toml::node const& node) {
+  if (auto const* number = node.as_floating_point()) {
+    std::string const text = fmt::format("{}", number->get());
+    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+  }
+  if (auto const* array = node.as_array()) {
+    std::vector<std::string> entries;
+    for (toml::node const& entry : *array) entries.push_back(in_full(entry));
+    return fmt::format("[{}]", fmt::join(entries, ", "));
+  }
   std::ostringstream stream;
   node.visit([&](auto const& value) {
     if constexpr (toml::is_table<decltype(value)>) stream << toml::table{value};
@@ -36,8 +47,12 @@ std::string written(toml::node const& node) {
   });
   std::string text = stream.str();
   std::erase(text, '\n');
-  if (text.size() > 80) text = text.substr(0, 76) + " ...";
   return text;
+}
+
+std::string written(toml::node const& node) {
+  std::string const text = in_full(node);
+  return text.size() > 80 ? text.substr(0, 76) + " ..." : text;
 }
 
 // Levenshtein distance of two words.

@@ -86,7 +86,7 @@ TEST(Scene, Refuses_an_unknown_table) {
 
 TEST(Scene, Refuses_keys_that_the_kind_of_motion_ignores) {
   EXPECT_EQ(refusal(minimal, {"body.pnc.velocity=[1,0,0]"}),
-            "scene.toml: [[body]] #1: velocity = [ 1, 0, 0 ] (--set): needs motion = \"prescribed\"; a free body moves "
+            "scene.toml: [[body]] #1: velocity = [1, 0, 0] (--set): needs motion = \"prescribed\"; a free body moves "
             "by force and torque");
 }
 

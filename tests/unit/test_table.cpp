@@ -68,7 +68,7 @@ TEST(Table, Refuses_numbers_that_are_not_finite) {
   EXPECT_EQ(message_of([] { read_second_ball("[[ball]]\n[[ball]]\nradius = nan\n"); }),
             "scene.toml: [[ball]] #2: radius = nan: must be a finite number (um) [line 3]");
   EXPECT_EQ(message_of([] { read_second_ball(two_balls + "position = [0, inf, 0]\n"); }),
-            "scene.toml: [[ball]] #2: position = [ 0, inf, 0 ]: every entry must be a finite number (um) [line 8]");
+            "scene.toml: [[ball]] #2: position = [0, inf, 0]: every entry must be a finite number (um) [line 8]");
 }
 
 TEST(Table, Refuses_an_unknown_key_and_names_the_nearest_one) {
@@ -84,7 +84,7 @@ TEST(Table, Names_a_missing_key) {
 
 TEST(Table, Refuses_lists_of_the_wrong_length) {
   EXPECT_EQ(message_of([] { read_second_ball(two_balls + "position = [0, 1]\n"); }),
-            "scene.toml: [[ball]] #2: position = [ 0, 1 ]: must be a list of 3 numbers (um) [line 8]");
+            "scene.toml: [[ball]] #2: position = [0, 1]: must be a list of 3 numbers (um) [line 8]");
 }
 
 TEST(Table, Overrides_reach_elements_by_position_and_by_name) {
