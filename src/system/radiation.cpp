@@ -86,6 +86,7 @@ void Radiation::set_geometry(FiberNodes const& fibers, std::vector<RigidPose> co
         rough_stokeslets_ = make_evaluator(Stokeslet::name, {.backend = options_.evaluator, .accuracy = rough_accuracy});
       rough_stokeslets_->set_points(fibers.positions, all);
     }
+    close_nodes_.find(fibers.positions, fibers.weights, first_fiber_node_);
     strengths_.resize(n_fiber_nodes_);
   }
   seconds_.geometry += timer.seconds();
@@ -135,6 +136,7 @@ void Radiation::add_fibers(ConstPoints force_density, Exchange kind, Points rece
   else
     images_.add_velocity<double>(strengths_, nodes_, received);
   images_.add_own_resolution(strengths_, nodes_, received);
+  close_nodes_.add_correction(strengths_, received);
   parallel_for("Radiation::own_flow", static_cast<long>(first_fiber_node_.size()) - 1, [&](long fiber) {
     std::size_t const begin = first_fiber_node_[fiber], end = first_fiber_node_[fiber + 1];
     for (std::size_t i = begin; i < end; ++i)

@@ -4,7 +4,8 @@
 // Nodes are numbered: hydrodynamic nodes of the fibers, then surface nodes of each body, then those of the periphery.
 // Incident flow means, at the nodes of one object, the velocity due to all OTHER objects. An object's own flow is
 //   fiber      sum of Stokeslets of strength weight x force density over its nodes     [paper, Eq. 3b]
-//              and, where the periphery is close, of their images behind it (wall_images.hpp)
+//              and, where the periphery is close, of their images behind it (wall_images.hpp); bounded at nodes of other
+//              fibers that are too close to be resolved (close_nodes.hpp)
 //   body       exterior Dirichlet flow with wall velocity U + Omega x r - incident     [Eq. 3d, 5]
 //   periphery  interior Dirichlet flow with wall velocity - incident                   [Eq. 3c, 4]
 
@@ -12,6 +13,7 @@
 #include "base/rigid.hpp"
 #include "surface/dirichlet_flow.hpp"
 #include "system/wall_images.hpp"
+#include "system/close_nodes.hpp"
 
 #include <memory>
 #include <string>
@@ -111,6 +113,7 @@ class Radiation {
   std::vector<DirichletFlow::Targets> body_targets_;    // per body: nodes of fibers and periphery
   std::vector<DirichletFlow::Targets> body_neighbours_;  // per body: nodes of the other bodies
   DirichletFlow::Targets periphery_targets_;          // all nodes but its own
+  CloseNodes close_nodes_;
   PointArray strengths_;                              // [n_fiber_node] pN over viscosity
   Seconds seconds_;
 };
