@@ -17,6 +17,9 @@ double slender_body_mobility(double length, double radius, double viscosity) {
 
 namespace {
 
+// One fiber may err by so many times the error of all, which is the root of the mean square.
+constexpr double tolerated_outlier = 10.0;
+
 // Turns every tangent by the least rotation that takes the first one to `direction`.
 void align(Centreline& shape, Vec3d direction) {
   Matrix3 const turn =
@@ -249,9 +252,13 @@ void Fibers::estimate_error(Fiber& fiber) const {
 }
 
 double Fibers::error_estimate() const {
-  double largest = 0.0;
-  for (Fiber const& fiber : fibers_) largest = std::max(largest, fiber.error);
-  return largest;
+  if (fibers_.empty()) return 0.0;
+  double largest = 0.0, squares = 0.0;
+  for (Fiber const& fiber : fibers_) {
+    largest = std::max(largest, fiber.error);
+    squares += fiber.error * fiber.error;
+  }
+  return std::max(largest / tolerated_outlier, std::sqrt(squares / static_cast<double>(count())));
 }
 
 void Fibers::accept() {

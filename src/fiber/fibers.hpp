@@ -83,7 +83,8 @@ class Fibers {
 
   // Trial shapes from the solution and the bodies' poses at the end of the step.
   void advance(ConstPoints u, std::span<Vector6 const> q, std::span<RigidPose const> poses);
-  // Largest local error of a node's position in the trial step, um; newborn fibers do not count.
+  // Local error of the trial step, um: of each fiber the node that errs most, of all fibers the root of the mean
+  // square, so that one catastrophe among hundreds does not set the step; at least a tenth of the worst fiber's.
   double error_estimate() const;
   void accept();
 

@@ -21,7 +21,7 @@ struct RunSpec {
   double time_step = 0.01;      // s, > 0, the first one, or every one
   double min_time_step = 1e-6;  // s, > 0; a run that needs less stops with its state saved
   double max_time_step = 5.0;   // s, > 0
-  double step_tolerance = 0.0;  // um, error of node positions a step may make; 0: accuracy x 1 um
+  double step_tolerance = 0.0;  // um, error of positions a step may make (Fibers::error_estimate); 0: accuracy x 1 um
   double gmres_tolerance = 0.0;    // relative residual; 0: accuracy / 10
   int gmres_max_iterations = 200;  // > 0; a solve that needs more is a failed step
   std::string evaluator = "auto";  // auto, reference, direct, fast: who sums pairs (asterflow sum --help)

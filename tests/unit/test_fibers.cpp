@@ -74,3 +74,22 @@ TEST(Fibers, straight_fiber_moves_exactly_under_a_uniform_force) {
   EXPECT_LT(norm(fibers.shape(0).minus_end - start - 3 * dt * velocity), 1e-13 * norm(velocity));
   EXPECT_LT(norm(fibers.shape(0).tangents.back() - direction), 1e-13);
 }
+
+TEST(Fibers, error_of_a_step_is_the_root_of_the_mean_square_over_fibers) {
+  auto const error_beside = [](int n_still) {
+    Fibers fibers(1.0);
+    BendingMode const mode = BendingMode::free_free();
+    fibers.add({.n_node = 12}, {}, bent_centreline(5.0, 12, 0.05, [&](double a) { return mode.slope(a); }));
+    for (int i = 0; i < n_still; ++i) fibers.add({.n_node = 12}, {}, straight_centreline({0, 9, 0}, {1, 0, 0}, 5.0, 12));
+    double error = 0.0;
+    for (int i = 0; i < 4; ++i) {
+      fibers.begin_step();
+      error = step(fibers, 0.2);
+    }
+    return error;
+  };
+  double const alone = error_beside(0);
+  EXPECT_GT(alone, 1e-9);
+  EXPECT_NEAR(error_beside(3), alone / 2, 1e-6 * alone);
+  EXPECT_NEAR(error_beside(399), alone / 10, 1e-6 * alone);  // not below a tenth of the worst
+}
