@@ -11,46 +11,59 @@ namespace asterflow {
 namespace {
 
 constexpr double negligible = 1e-3;  // nearness
-constexpr int n_lane = 32;           // targets that are summed at once
-
+// As many targets as fill a vector register are summed at once.
 template <class Real>
-using Lanes = Eigen::Array<Real, n_lane, 1>;
+constexpr long n_lane = 64 / sizeof(Real);
+template <class Real>
+using Lanes = Eigen::Array<Real, n_lane<Real>, 1>;
 template <class Real>
 struct LanesOfVectors {
   Lanes<Real> x = Lanes<Real>::Zero(), y = Lanes<Real>::Zero(), z = Lanes<Real>::Zero();
 };
 
 template <class Real>
-Lanes<Real> dot(Vec3d a, LanesOfVectors<Real> const& r) {
-  return Real(a.x) * r.x + Real(a.y) * r.y + Real(a.z) * r.z;
+Lanes<Real> dot(Vec3<Real> a, LanesOfVectors<Real> const& r) {
+  return a.x * r.x + a.y * r.y + a.z * r.z;
 }
 
 // Targets first ... first + count - 1, the last one repeated.
-LanesOfVectors<double> gather(ConstPoints targets, long first, long count) {
-  LanesOfVectors<double> x;
-  for (int i = 0; i < n_lane; ++i) {
+template <class Real>
+LanesOfVectors<Real> gather(ConstPoints targets, long first, long count) {
+  LanesOfVectors<Real> x;
+  for (int i = 0; i < n_lane<Real>; ++i) {
     Vec3d const target = targets[first + std::min<long>(i, count - 1)];
-    x.x[i] = target.x, x.y[i] = target.y, x.z[i] = target.z;
+    x.x[i] = Real(target.x), x.y[i] = Real(target.y), x.z[i] = Real(target.z);
   }
   return x;
 }
 
-// u += 8 pi x flow at x of the image of the force f at the distance d (um) from the wall.
 template <class Real>
-void add_image(Vec3d f, Vec3d foot, Vec3d e, double d, LanesOfVectors<double> const& x, LanesOfVectors<Real>& u) {
-  double const f_e = dot(f, e);
-  Vec3d const a = f - (2.0 * f_e) * e, image = foot - d * e;
-  LanesOfVectors<Real> const r{(x.x - image.x).template cast<Real>(), (x.y - image.y).template cast<Real>(),
-                               (x.z - image.z).template cast<Real>()};
-  Lanes<Real> const s = (r.x.square() + r.y.square() + r.z.square()).rsqrt(), s2 = s.square(), s3 = s * s2;
-  Lanes<Real> const r_f = dot(f, r), r_a = dot(a, r), r_e = dot(e, r);
-  auto const twice = Real(2.0 * d);
-  Lanes<Real> const along_a = (Real(d) - r_e) * (twice * s3), along_e = r_a * (twice * s3);
-  Lanes<Real> const along_r = s3 * (Real(2.0 * d * f_e) - r_f) - (Real(3) * s2) * (along_a * r_a);
-  u.x += along_r * r.x + Real(a.x) * along_a + Real(e.x) * along_e - Real(f.x) * s;
-  u.y += along_r * r.y + Real(a.y) * along_a + Real(e.y) * along_e - Real(f.y) * s;
-  u.z += along_r * r.z + Real(a.z) * along_a + Real(e.z) * along_e - Real(f.z) * s;
+Vec3<Real> to(Vec3d v) {
+  return {Real(v.x), Real(v.y), Real(v.z)};
 }
+
+// The image of the force f at the distance d (um) from the wall.
+template <class Real>
+struct PointImage {
+  Vec3<Real> position, f, a, e;
+  Real d, twice_d_f_e;
+
+  PointImage(Vec3d force, Vec3d foot, Vec3d normal, double distance)
+      : position(to<Real>(foot - distance * normal)), f(to<Real>(force)),
+        a(to<Real>(force - (2.0 * asterflow::dot(force, normal)) * normal)), e(to<Real>(normal)),
+        d(Real(distance)), twice_d_f_e(Real(2.0 * distance * asterflow::dot(force, normal))) {}
+
+  // u += 8 pi x flow at x.
+  void add(LanesOfVectors<Real> const& x, LanesOfVectors<Real>& u) const {
+    LanesOfVectors<Real> const r{x.x - position.x, x.y - position.y, x.z - position.z};
+    Lanes<Real> const s = (r.x * r.x + r.y * r.y + r.z * r.z).rsqrt(), s2 = s * s, s3 = s * s2;
+    Lanes<Real> const r_a = dot(a, r), twice = (d + d) * s3, along_a = (d - dot(e, r)) * twice, along_e = r_a * twice;
+    Lanes<Real> const along_r = s3 * (twice_d_f_e - dot(f, r)) - (Real(3) * s2) * (along_a * r_a);
+    u.x += along_r * r.x + a.x * along_a + e.x * along_e - f.x * s;
+    u.y += along_r * r.y + a.y * along_a + e.y * along_e - f.y * s;
+    u.z += along_r * r.z + a.z * along_a + e.z * along_e - f.z * s;
+  }
+};
 
 template <class Real>
 void scatter(LanesOfVectors<Real> const& u, long first, long count, Points velocity) {
@@ -81,13 +94,15 @@ void WallImages::place(Surface const& wall, ConstPoints positions, ConstVector w
 template <class Real>
 void WallImages::add_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const {
   if (images_.empty()) return;
+  std::vector<PointImage<Real>> images;
+  for (Image const& image : images_)
+    images.emplace_back(image.nearness * strengths[image.source], image.foot, image.normal, image.distance);
   auto const n = static_cast<long>(targets.size());
-  parallel_for("WallImages::add_velocity", (n + n_lane - 1) / n_lane, [&](long block) {
-    long const first = block * n_lane, count = std::min<long>(n_lane, n - first);
-    auto const x = gather(targets, first, count);
+  parallel_for("WallImages::add_velocity", (n + n_lane<Real> - 1) / n_lane<Real>, [&](long block) {
+    long const first = block * n_lane<Real>, count = std::min(n_lane<Real>, n - first);
+    auto const x = gather<Real>(targets, first, count);
     LanesOfVectors<Real> u;
-    for (Image const& image : images_)
-      add_image(image.nearness * strengths[image.source], image.foot, image.normal, image.distance, x, u);
+    for (auto const& image : images) image.add(x, u);
     scatter(u, first, count, velocity);
   });
 }
@@ -99,13 +114,16 @@ void WallImages::add_own_resolution(ConstPoints strengths, ConstPoints positions
   for (Image const& image : images_) {
     if (image.resolved == image.distance) continue;
     Vec3d const f = image.nearness * strengths[image.source];
-    for (std::size_t first = image.first; first < image.end; first += n_lane) {
-      long const count = std::min<long>(n_lane, static_cast<long>(image.end - first));
-      auto const x = gather(positions, static_cast<long>(first), count);
+    PointImage<double> const resolved(f, image.foot, image.normal, image.resolved),
+        as_it_is(-f, image.foot, image.normal, image.distance);
+    auto const end = static_cast<long>(image.end);
+    for (auto first = static_cast<long>(image.first); first < end; first += n_lane<double>) {
+      long const count = std::min(n_lane<double>, end - first);
+      auto const x = gather<double>(positions, first, count);
       LanesOfVectors<double> u;
-      add_image(f, image.foot, image.normal, image.resolved, x, u);
-      add_image(-f, image.foot, image.normal, image.distance, x, u);
-      scatter(u, static_cast<long>(first), count, velocity);
+      resolved.add(x, u);
+      as_it_is.add(x, u);
+      scatter(u, first, count, velocity);
     }
   }
 }
