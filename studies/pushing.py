@@ -22,18 +22,19 @@ def draw_end_forces(axis, table, title):
     axis.legend(fontsize=8)
 
 
-def end_forces(tables, settling=20.0):
-    """Means over time and seeds: plus ends (pN), minus ends (pN), and the ratio of the means."""
-    plus, minus = (np.mean([mean_over(t, column, min(settling, t["time"][-1] / 2)) for t in tables])
+def end_forces(tables, settling=20.0, kind=""):
+    """Means over time and seeds: plus ends (pN), minus ends (pN), and the ratio of the means. `kind`: "" for the sum of
+    the magnitudes, "net_" for the magnitude of the vector sum."""
+    plus, minus = (np.mean([mean_over(t, f"{kind}{column}", min(settling, t["time"][-1] / 2)) for t in tables])
                    for column in ("plus_end_force", "minus_end_force"))
     return plus, minus, minus / plus if plus > 0 else float("nan")
 
 
 def record_end_forces(study, name, tables, paper):
-    """`paper`: plus ends, minus ends, ratio."""
-    for quantity, theirs, ours in zip(("plus-end force (pN)", "minus-end force (pN)", "minus / plus"), paper,
-                                      end_forces(tables)):
-        study.record(f"{name}: {quantity}", theirs, float(f"{ours:.3g}"),
-                     "" if study.options.fibers == 600 or "/" in quantity else
-                     f"{study.options.fibers} microtubules, paper 600: x {600 / study.options.fibers:.3g} would be "
-                     f"{ours * 600 / study.options.fibers:.3g}")
+    """`paper`: plus ends, minus ends, ratio. It does not say whether these are sums of magnitudes or net forces."""
+    for quantity, theirs, ours, net in zip(("plus-end force (pN)", "minus-end force (pN)", "minus / plus"), paper,
+                                           end_forces(tables), end_forces(tables, kind="net_")):
+        note = f"net {net:.3g}"
+        if study.options.fibers != 600 and "/" not in quantity:
+            note += f"; {study.options.fibers} microtubules, paper 600"
+        study.record(f"{name}: {quantity}", theirs, float(f"{ours:.3g}"), note)

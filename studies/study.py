@@ -138,9 +138,10 @@ def first_time(times, condition):
     return float(times[hits[0]]) if len(hits) else float("nan")
 
 
-def centring_time(table):
-    """s, the paper's measure: first time that the PNC passes the centre."""
-    return first_time(table["time"], table["pnc_x"] <= 0.0)
+def centring_time(table, distance=1.0):
+    """s until the PNC is within `distance` (um) of the centre. The paper takes the first time that it passes the centre,
+    which a position that decays towards it does only by chance."""
+    return first_time(table["time"], np.abs(table["pnc_x"]) <= distance)
 
 
 def rotation_time(table, angle=10.0):
