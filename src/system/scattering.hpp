@@ -63,7 +63,7 @@ struct ScatteringSolution {
 };
 
 // What a sequence of similar problems remembers: more directions save few iterations (bench_step).
-inline constexpr int recycled_directions = 30;
+inline constexpr int recycled_directions = 45;
 
 class Scattering {
  public:
