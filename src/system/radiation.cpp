@@ -48,6 +48,13 @@ void Radiation::set_geometry(FiberNodes const& fibers, std::vector<RigidPose> co
   ASTERFLOW_REQUIRE(poses.size() == bodies_.size());
   Timer const timer;
   poses_ = poses;
+  place_nodes(fibers);
+  plan_surfaces();
+  if (n_fiber_nodes_ > 0) plan_fibers(fibers);
+  seconds_.geometry += timer.seconds();
+}
+
+void Radiation::place_nodes(FiberNodes const& fibers) {
   n_fiber_nodes_ = fibers.positions.size();
   first_fiber_node_ = *fibers.first;
   weights_.assign(fibers.weights.begin(), fibers.weights.end());
@@ -59,37 +66,36 @@ void Radiation::set_geometry(FiberNodes const& fibers, std::vector<RigidPose> co
   }
   first_.push_back(nodes_.size());
   if (periphery_) nodes_.insert(nodes_.end(), periphery_->surface().nodes().begin(), periphery_->surface().nodes().end());
+}
 
+void Radiation::plan_surfaces() {
   ConstPoints const all = nodes_;
   body_targets_.resize(bodies_.size());
   body_neighbours_.resize(bodies_.size());
-  PointArray fluid, neighbours;
-  fluid.assign(all.begin(), all.begin() + first_.front());
-  fluid.insert(fluid.end(), all.begin() + first_.back(), all.end());
+  PointArray others(all.begin(), all.begin() + first_.front()), neighbours;
+  others.insert(others.end(), all.begin() + first_.back(), all.end());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     neighbours.assign(all.begin() + first_.front(), all.begin() + first_[b]);
     neighbours.insert(neighbours.end(), all.begin() + first_[b + 1], all.begin() + first_.back());
-    bodies_[b]->plan(to_body_frame(poses_[b], fluid), body_targets_[b]);
+    bodies_[b]->plan(to_body_frame(poses_[b], others), body_targets_[b]);
     bodies_[b]->plan(to_body_frame(poses_[b], neighbours), body_neighbours_[b]);
   }
-  if (periphery_) {
-    periphery_->plan(all.first(first_.back()), periphery_targets_);
-    images_.place(periphery_->surface(), fibers.positions, fibers.weights, first_fiber_node_);
-  }
+  if (periphery_) periphery_->plan(all.first(first_.back()), periphery_targets_);
+}
 
-  if (n_fiber_nodes_ > 0) {
-    if (!stokeslets_)
-      stokeslets_ = make_evaluator(Stokeslet::name, {.backend = options_.evaluator, .accuracy = options_.accuracy});
-    stokeslets_->set_points(fibers.positions, all);
-    if (options_.accuracy < 0.5 * rough_accuracy) {
-      if (!rough_stokeslets_)
-        rough_stokeslets_ = make_evaluator(Stokeslet::name, {.backend = options_.evaluator, .accuracy = rough_accuracy});
-      rough_stokeslets_->set_points(fibers.positions, all);
-    }
-    close_nodes_.find(fibers.positions, fibers.weights, first_fiber_node_);
-    strengths_.resize(n_fiber_nodes_);
+void Radiation::plan_fibers(FiberNodes const& fibers) {
+  auto const evaluator = [&](double accuracy) {
+    return make_evaluator(Stokeslet::name, {.backend = options_.evaluator, .accuracy = accuracy});
+  };
+  if (!stokeslets_) {
+    stokeslets_ = evaluator(options_.accuracy);
+    if (options_.accuracy < 0.5 * rough_accuracy) rough_stokeslets_ = evaluator(rough_accuracy);
   }
-  seconds_.geometry += timer.seconds();
+  stokeslets_->set_points(fibers.positions, nodes_);
+  if (rough_stokeslets_) rough_stokeslets_->set_points(fibers.positions, nodes_);
+  if (periphery_) images_.place(periphery_->surface(), fibers.positions, fibers.weights, first_fiber_node_);
+  close_nodes_.find(fibers.positions, fibers.weights, first_fiber_node_);
+  strengths_.resize(n_fiber_nodes_);
 }
 
 Vector6 Radiation::load_in_body_frame(std::size_t body, ConstPoints incident) const {

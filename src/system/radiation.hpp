@@ -12,8 +12,8 @@
 #include "base/arrays.hpp"
 #include "base/rigid.hpp"
 #include "surface/dirichlet_flow.hpp"
-#include "system/wall_images.hpp"
 #include "system/close_nodes.hpp"
+#include "system/wall_images.hpp"
 
 #include <memory>
 #include <string>
@@ -87,6 +87,9 @@ class Radiation {
   Seconds const& seconds() const { return seconds_; }
 
  private:
+  void place_nodes(FiberNodes const& fibers);
+  void plan_surfaces();
+  void plan_fibers(FiberNodes const& fibers);
   Vector6 load_in_body_frame(std::size_t body, ConstPoints incident) const;  // over viscosity
   PointArray wall_velocity(std::size_t body, Vector6 const& motion, ConstPoints incident) const;
   Vector6 motion_at_same_force(std::size_t body, Vector6 const& motion, ConstPoints before, ConstPoints now) const;
