@@ -63,7 +63,7 @@ class Automatic final : public Evaluator {
 
  private:
   bool is_fast_cheaper(ConstPoints sources, ConstPoints targets) const {
-    if (!has_fast() || options_.accuracy < 1e-12) return false;
+    if (options_.accuracy < 1e-12) return false;
     bool const same = sources.data() == targets.data() && sources.size() == targets.size();
     double const n_source = static_cast<double>(sources.size()), n_target = static_cast<double>(targets.size());
     double const n = 0.5 * (n_source + n_target);

@@ -18,7 +18,6 @@ Maker make_automatic;  // direct or fast
 // Whether this build and this machine can run the loops of an instruction set.
 bool has_avx2();
 bool has_avx512();
-bool has_fast();  // any loops of the fast sum: device compilers take none of them; then "fast" is "direct"
 
 // What the pair loops of an instruction set ("avx2", "avx512") do for an accuracy where the points allow: for
 // benchmarks that count instructions.

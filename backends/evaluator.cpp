@@ -27,7 +27,7 @@ constexpr std::array backends{
     Backend{"fast", make_fast, always},
     Backend{"fast-avx512", make_fast_avx512, has_avx512},
     Backend{"fast-avx2", make_fast_avx2, has_avx2},
-    Backend{"fast-portable", make_fast_portable, has_fast},
+    Backend{"fast-portable", make_fast_portable, always},
     Backend{"reference", make_reference, always},
 };
 

@@ -30,11 +30,7 @@ FastLoops<Real> loops_of(FastInstructions instructions) {
   if (instructions == FastInstructions::avx2) return fast_loops_avx2<Real>();
 #endif
   (void)instructions;
-#ifdef ASTERFLOW_HAS_FAST_LOOPS
   return fast_loops_portable<Real>();
-#else
-  return {};
-#endif
 }
 
 FastKernel kernel_of(std::string_view name) {

@@ -120,7 +120,7 @@ class CheckedFast final : public Evaluator {
 
 template <FastInstructions instructions>
 std::unique_ptr<Evaluator> make(std::string_view kernel, EvaluatorOptions const& options, std::string_view name) {
-  if (!has_fast() || options.accuracy < strictest) return make_direct(kernel, options);
+  if (options.accuracy < strictest) return make_direct(kernel, options);
   return std::make_unique<CheckedFast>(kernel, options, instructions, name);
 }
 

@@ -4,12 +4,6 @@
 
 namespace asterflow {
 
-#ifdef ASTERFLOW_HAS_FAST_LOOPS
-bool has_fast() { return true; }
-#else
-bool has_fast() { return false; }
-#endif
-
 #ifdef ASTERFLOW_HAS_X86_SIMD
 
 bool has_avx2() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
