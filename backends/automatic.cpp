@@ -4,6 +4,7 @@
 // timing: the same points give the same choice, hence the same bits, wherever and whenever.
 
 #include "backends/backend.hpp"
+#include "backends/fast_kernel.hpp"
 #include "backends/fast_plan.hpp"
 
 #include <algorithm>
@@ -13,7 +14,8 @@
 namespace asterflow {
 namespace {
 
-// Nanoseconds of a pair on one core where targets are sources, at 3, 6, 9 and 12 digits; linear between.
+// Nanoseconds of a pair on one core where targets are sources, at 3, 6, 9 and 12 digits; linear between. A pressure
+// is taken for as dear as its flow.
 struct PairCosts {
   std::string_view kernel;
   std::array<double, 4> self;
@@ -36,7 +38,7 @@ double pair_cost(std::string_view kernel, double accuracy) {
   double const place = std::clamp(-std::log10(accuracy) / 3.0 - 1.0, 0.0, 2.999);
   int const i = static_cast<int>(place);
   for (PairCosts const& costs : pair_costs)
-    if (costs.kernel == kernel) return costs.self[i] + (place - i) * (costs.self[i + 1] - costs.self[i]);
+    if (kernel.starts_with(costs.kernel)) return costs.self[i] + (place - i) * (costs.self[i + 1] - costs.self[i]);
   return pair_costs[0].self[i];
 }
 
@@ -73,7 +75,7 @@ class Automatic final : public Evaluator {
     if (n < fewest || direct * clear < usual) return false;
     if (direct > clear * usual) return true;
     Plan const plan = best_plan(sources, targets, fast_parameters(kernel_, options_.accuracy, options_.gradient),
-                                kernel_ == "stresslet" ? 6 : 3);
+                                n_component(fast_kernel(kernel_)));
     return direct > plan.cost + fast_point * n;
   }
 

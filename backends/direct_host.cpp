@@ -98,7 +98,7 @@ KernelTraits traits_of(std::string_view name) {
       [&](auto... k) {
         ((k.name == name ? void(traits = {i++, k.prefactor, k.decay, k.has_normal}) : void(i++)), ...);
       },
-      AllKernels{});
+      AllSums{});
   return traits;
 }
 

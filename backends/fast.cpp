@@ -7,6 +7,7 @@
 #include "backends/backend.hpp"
 #include "backends/blocks.hpp"
 #include "backends/fast_far.hpp"
+#include "backends/fast_kernel.hpp"
 #include "backends/fast_near.hpp"
 #include "backends/fast_plan.hpp"
 #include "base/error.hpp"
@@ -33,23 +34,19 @@ FastLoops<Real> loops_of(FastInstructions instructions) {
   return fast_loops_portable<Real>();
 }
 
-FastKernel kernel_of(std::string_view name) {
-  return name == "stokeslet" ? FastKernel::stokeslet : name == "stresslet" ? FastKernel::stresslet : FastKernel::rotlet;
-}
-
 template <class Real>
 class FastSum final : public Evaluator {
  public:
   FastSum(std::string_view kernel, FastParameters const& parameters, FastInstructions instructions, std::string_view name)
       : name_(name),
         kernel_name_(kernel),
-        kernel_(kernel_of(kernel)),
+        kernel_(fast_kernel(kernel)),
         parameters_(parameters),
         split_(parameters.split_shape),
         loops_(loops_of<Real>(instructions)) {}
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
-    ASTERFLOW_REQUIRE(normals.size() == (kernel_ == FastKernel::stresslet ? sources.size() : 0));
+    ASTERFLOW_REQUIRE(normals.size() == (has_normal(kernel_) ? sources.size() : 0));
     require_finite(sources, "source");
     require_finite(targets, "target");
     require_finite(normals, "normal");
@@ -58,9 +55,8 @@ class FastSum final : public Evaluator {
     direct_.reset();
     tree_.reset();
     if (n_source_ == 0 || n_target_ == 0) return;
-    int const components = kernel_ == FastKernel::stresslet ? 6 : 3;
     if (static_cast<long>(n_source_ + n_target_) > 2 * parameters_.capacity)
-      tree_ = std::make_unique<Octree>(sources, targets, best_plan(sources, targets, parameters_, components).octree);
+      tree_ = std::make_unique<Octree>(sources, targets, best_plan(sources, targets, parameters_, n_component(kernel_)).octree);
     if (!tree_ || tree_->refined().empty()) {
       direct_ = make_direct(kernel_name_, {.accuracy = parameters_.accuracy, .gradient = parameters_.gradient});
       return direct_->set_points(sources, targets, normals);
@@ -125,7 +121,7 @@ class FastSum final : public Evaluator {
     near_->set_strengths(sorted_.data(), normals);
     parallel_for("Fast::near", near_->n_items(), [&](long i) { near_->add(i, sum_.data(), slopes); });
     far_->add(sorted_.data(), normals, sum_.data(), slopes);
-    return kernel_ == FastKernel::stokeslet ? largest / tree_->side() : largest / (tree_->side() * tree_->side());
+    return largest / std::pow(tree_->side(), decay(kernel_));
   }
 
   std::string_view name_;

@@ -204,6 +204,8 @@ template <class Real>
 void y_sweep(PatchView<Real> const& patch, FastKernel kernel, int kz, Real* spectrum, Real* scratch) {
   if (kernel == FastKernel::stokeslet) return y_sweep_of<Real, StokesletSymbol>(patch, kz, spectrum, scratch);
   if (kernel == FastKernel::rotlet) return y_sweep_of<Real, RotletSymbol>(patch, kz, spectrum, scratch);
+  if (kernel == FastKernel::stokeslet_pressure) return y_sweep_of<Real, StokesletPressureSymbol>(patch, kz, spectrum, scratch);
+  if (kernel == FastKernel::stresslet_pressure) return y_sweep_of<Real, StressletPressureSymbol>(patch, kz, spectrum, scratch);
   y_sweep_of<Real, StressletSymbol>(patch, kz, spectrum, scratch);
 }
 

@@ -2,6 +2,7 @@
 
 #include "backends/blocks.hpp"
 #include "backends/fast_cover.hpp"
+#include "backends/fast_kernel.hpp"
 #include "backends/fast_spectrum.hpp"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ FarField<Real>::FarField(FastKernel kernel, FastLoops<Real> const& loops, FastPa
       loops_(loops),
       parameters_(parameters),
       split_(split),
-      components_(kernel == FastKernel::stresslet ? 6 : 3),
+      components_(n_component(kernel)),
       window_(parameters.width, parameters.window_shape) {}
 
 template <class Real>
@@ -67,7 +68,7 @@ void FarField<Real>::place_work(Batch& batch) const {
 // What all patches of one spacing need: scale, tiles, transforms, symbol.
 template <class Real>
 void FarField<Real>::set_grid(Patch<Real>& patch, bool is_root) {
-  patch.scale = kernel_ == FastKernel::stokeslet ? 1.0 / patch.spacing : 1.0 / (patch.spacing * patch.spacing);
+  patch.scale = std::pow(patch.spacing, -decay(kernel_));
   patch.set_tiles(loops_);
   for (int d = 0; d < 3; ++d)
     patch.lines[d] = transforms_.try_emplace(patch.nodes[d], patch.nodes[d]).first->second.view();

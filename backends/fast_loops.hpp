@@ -7,7 +7,7 @@
 
 namespace asterflow {
 
-enum class FastKernel { stokeslet, stresslet, rotlet };
+enum class FastKernel { stokeslet, stresslet, rotlet, stokeslet_pressure, stresslet_pressure };
 
 // A one-dimensional Fourier transform, see fast_fourier.hpp.
 template <class Real>

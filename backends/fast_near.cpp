@@ -1,6 +1,7 @@
 #include "backends/fast_near.hpp"
 
 #include "backends/blocks.hpp"
+#include "backends/fast_kernel.hpp"
 #include "base/error.hpp"
 #include "kernels/dual.hpp"
 
@@ -48,13 +49,13 @@ NearField<Real>::NearField(FastKernel kernel, FastLoops<Real> const& loops, Loca
   ASTERFLOW_REQUIRE(terms <= NearLevel<Real>::max_terms);
   local_.a.resize(terms, 0.0);
   local_.b.resize(terms, 0.0);
-  record_ = (split_coordinates ? 6 : 3) + (kernel == FastKernel::stresslet ? 6 : 3);
+  record_ = (split_coordinates ? 6 : 3) + n_component(kernel);
 }
 
 template <class Real>
 void NearField<Real>::make_levels(int n_level) {
   levels_.clear();
-  int const power = kernel_ == FastKernel::stresslet ? NearStresslet::powers : NearStokeslet::powers;
+  int const power = has_normal(kernel_) ? NearStresslet::powers : NearStokeslet::powers;
   for (int level = 0; level < n_level; ++level) {
     double const cutoff = std::ldexp(side_, -level);
     NearLevel<Real> l{};
@@ -73,7 +74,7 @@ void NearField<Real>::set_points(Octree& tree, ConstPoints sources, ConstPoints 
   auto const& leaves = tree.leaves();
   int exponent = 0;
   side_ = std::frexp(tree.side(), &exponent);
-  velocity_scale_ = (kernel_ == FastKernel::stokeslet ? side_ : side_ * side_) / (8.0 * M_PI);
+  velocity_scale_ = std::pow(side_, decay(kernel_)) / (8.0 * M_PI);
   make_levels(static_cast<int>(leaves.size()));
   std::vector<std::pair<int, Box const*>> boxes;
   for (std::size_t level = 0; level < leaves.size(); ++level)
@@ -303,6 +304,8 @@ void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient) const {
   if (leaf.close.empty()) return;
   if (kernel_ == FastKernel::stokeslet) return add_close<NearStokeslet>(leaf, velocity, gradient);
   if (kernel_ == FastKernel::rotlet) return add_close<NearRotlet>(leaf, velocity, gradient);
+  if (kernel_ == FastKernel::stokeslet_pressure) return add_close<NearStokesletPressure>(leaf, velocity, gradient);
+  if (kernel_ == FastKernel::stresslet_pressure) return add_close<NearStressletPressure>(leaf, velocity, gradient);
   add_close<NearStresslet>(leaf, velocity, gradient);
 }
 

@@ -113,7 +113,7 @@ struct NearLoop {
             return D{keep(n.value), keep(n.slope[0]), keep(n.slope[1]), keep(n.slope[2])};
           };
           D strength[6];
-          for (int d = 0; d < (work.kernel == FastKernel::stresslet ? 6 : 3); ++d)
+          for (int d = 0; d < work.record - offset; ++d)
             strength[d] = broadcast(record[offset + d]);
           Kernel::add(x, inverse, polynomial(level.a, work.terms, w, slope),
                       polynomial(level.b, work.terms, w, slope), inside, strength, u);
@@ -151,7 +151,10 @@ void add_near(NearWork<Real> const& work, double* velocity, double* gradient) {
   using Loop = NearLoop<Real>;
   if (work.kernel == FastKernel::stokeslet) return Loop::template add_of<NearStokeslet>(work, velocity, gradient);
   if (work.kernel == FastKernel::rotlet) return Loop::template add_of<NearRotlet>(work, velocity, gradient);
-  Loop::template add_of<NearStresslet>(work, velocity, gradient);
+  if (work.kernel == FastKernel::stresslet) return Loop::template add_of<NearStresslet>(work, velocity, gradient);
+  if (work.kernel == FastKernel::stokeslet_pressure)
+    return Loop::template add_of<NearStokesletPressure>(work, velocity, gradient);
+  Loop::template add_of<NearStressletPressure>(work, velocity, gradient);
 }
 
 // One bit per lane: whether it is below the limit.

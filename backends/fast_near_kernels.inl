@@ -29,6 +29,15 @@ struct NearRotlet {
   }
 };
 
+struct NearStokesletPressure {
+  static constexpr int powers = 1;
+  template <class Number, class Inside, class Real>
+  static void add(Number const (&r)[3], Number const& inverse, Number const&, Number const& b, Inside const& inside,
+                  Real const* f, Number (&p)[3]) {
+    p[0] += inside((inverse * inverse * inverse - b) * 2.0f) * (r[0] * f[0] + r[1] * f[1] + r[2] * f[2]);
+  }
+};
+
 struct NearStresslet {
   static constexpr int powers = 3;  // A scales as 1 / cutoff^3, B as 1 / cutoff^5
   template <class Number, class Inside, class Real>
@@ -43,6 +52,20 @@ struct NearStresslet {
     Number const along = second + first * (q[0] * n[0] + q[1] * n[1] + q[2] * n[2]);
     Number const by_q = first * rn, by_n = first * rq;
     for (int d = 0; d < 3; ++d) u[d] += along * r[d] + by_q * q[d] + by_n * n[d];
+  }
+};
+
+struct NearStressletPressure {
+  static constexpr int powers = 3;
+  template <class Number, class Inside, class Real>
+  static void add(Number const (&r)[3], Number const& inverse, Number const& a, Number const& b, Inside const& inside,
+                  Real const* q, Number (&p)[3]) {
+    Real const* n = q + 3;
+    Number const rq = r[0] * q[0] + r[1] * q[1] + r[2] * q[2], rn = r[0] * n[0] + r[1] * n[1] + r[2] * n[2];
+    Number const cube = inverse * inverse * inverse;
+    Number const first = (cube - a) * (q[0] * n[0] + q[1] * n[1] + q[2] * n[2]);
+    Number const second = cube * (rq * inverse) * (rn * inverse) - b * rq * rn;
+    p[0] += inside(first * 4.0f - second * 12.0f);
   }
 };
 

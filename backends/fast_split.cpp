@@ -93,8 +93,11 @@ LocalPart KernelSplit::local_part(std::string_view kernel, double tolerance) con
   if (kernel == "stokeslet") {
     a = [&](double r) { return 2.0 * g(r) + 2.0 * moment(0, r, g); };
     b = [&](double r) { return -2.0 * moment(2, r, h); };
-  } else if (kernel == "rotlet") {
+  } else if (kernel == "rotlet" || kernel == "stokeslet_pressure") {
     b = [&](double r) { return -h(r) - 2.0 * moment(2, r, h); };
+  } else if (kernel == "stresslet_pressure") {
+    a = [&](double r) { return -h(r) - 2.0 * moment(2, r, h); };
+    b = [&](double r) { return (h2(r) + 2.0 * moment(4, r, h2)) / 3.0; };
   } else {
     a = [&](double r) { return 2.0 * h(r); };
     b = [&](double r) { return (2.0 / 3.0) * moment(4, r, h2); };

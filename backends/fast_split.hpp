@@ -4,6 +4,7 @@
 // All kernels are derivatives of the biharmonic function r:
 //   Stokeslet  (I lap - grad grad) r          rotlet  curl (lap r / 2)
 //   stresslet  (delta_ik d_j + delta_ij d_k + delta_jk d_i) lap r - 2 d_i d_j d_k r      (all / 8 pi)
+// and their pressures  -(f . grad) lap r  and  -2 (q . grad) (n . grad) lap r.
 // r is replaced by W(r) with W'' = 2 g, g a window on [-1, 1]: W equals r beyond the cutoff 1 and is smooth
 // inside. In Fourier space W is -8 pi / k^4 times filter(k) = spectrum(k) - k spectrum'(k) / 2.
 
@@ -18,6 +19,7 @@ namespace asterflow {
 //   Stokeslet  (1/r - A) f + (1/r^3 - B) r (r.f)
 //   rotlet     (1/r^3 - B) t x r
 //   stresslet  -A (q (n.r) + n (q.r) + (q.n) r) - 6 (1/r^5 - B) r (q.r) (n.r)
+//   pressures  2 (1/r^3 - B) (r.f)  and  4 (1/r^3 - A) (q.n) - 12 (1/r^5 - B) (r.q) (r.n)
 // Coefficients of u^0, u^1, ...; both of the same length.
 struct LocalPart {
   std::vector<double> a, b;

@@ -3,6 +3,7 @@
 //   Stokeslet  k^2 f - k (k.f)
 //   rotlet     (k^2 / 2) i k x t
 //   stresslet  i (k^2 (2 S k + tr(S) k) - 2 k (k.S k)),  S = (q n + n q) / 2 as xx yy zz xy xz yz
+//   pressures, as x components:  -i k^2 (k.f)  and  2 k^2 (k.S k)
 // P is a vector type; strengths and velocities are (real, imaginary) arrays.
 
 namespace asterflow {
@@ -58,6 +59,31 @@ struct StressletSymbol {
       u_re[d] = -s * v_im[d];
       u_im[d] = s * v_re[d];
     }
+  }
+};
+
+struct StokesletPressureSymbol {
+  static constexpr int components = 3;
+  template <class P>
+  static void apply(P const (&k)[3], P s, P const* re, P const* im, P* p_re, P* p_im) {
+    P const factor = s * (k[0] * k[0] + k[1] * k[1] + k[2] * k[2]);
+    p_re[0] = factor * (k[0] * im[0] + k[1] * im[1] + k[2] * im[2]);
+    p_im[0] = -factor * (k[0] * re[0] + k[1] * re[1] + k[2] * re[2]);
+  }
+};
+
+struct StressletPressureSymbol {
+  static constexpr int components = 6;
+  template <class P>
+  static P along(P const (&k)[3], P const* m) {
+    P const mixed = k[0] * (k[1] * m[3] + k[2] * m[4]) + k[1] * k[2] * m[5];
+    return k[0] * k[0] * m[0] + k[1] * k[1] * m[1] + k[2] * k[2] * m[2] + (mixed + mixed);
+  }
+  template <class P>
+  static void apply(P const (&k)[3], P s, P const* re, P const* im, P* p_re, P* p_im) {
+    P const factor = s * (k[0] * k[0] + k[1] * k[1] + k[2] * k[2]) * 2.0f;
+    p_re[0] = factor * along(k, re);
+    p_im[0] = factor * along(k, im);
   }
 };
 

@@ -16,7 +16,7 @@ namespace asterflow {
 
 // Kernel constants, see kernels/kernel.hpp.
 struct KernelTraits {
-  int index = 0;  // in kernels/list.hpp
+  int index = 0;  // in AllSums
   double prefactor = 1.0;
   int decay = 1;
   bool has_normal = false;

@@ -36,7 +36,7 @@ struct PairSums {
                        double* gradient) = nullptr;
 };
 
-// The loops of kernel number i_kernel of kernels/list.hpp with the given number of correction steps; without
+// The loops of number i_kernel of AllSums (kernels/list.hpp) with the given number of correction steps; without
 // functions when there are none. Call only on a processor that has the instructions.
 template <class Real>
 PairSums<Real> avx2_pair_sums(int i_kernel, int steps);

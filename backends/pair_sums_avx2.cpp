@@ -45,7 +45,7 @@ namespace asterflow {
 
 template <class Real>
 PairSums<Real> avx2_pair_sums(int i_kernel, int steps) {
-  return pair_sums_of<Real>(i_kernel, steps, static_cast<AllKernels const*>(nullptr));
+  return pair_sums_of<Real>(i_kernel, steps, static_cast<AllSums const*>(nullptr));
 }
 
 template PairSums<float> avx2_pair_sums<float>(int, int);

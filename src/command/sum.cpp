@@ -26,7 +26,7 @@ struct SumOptions {
   std::string backend = "auto";
   double accuracy = 1e-6;
   double viscosity = 1.0;
-  bool has_gradient = false;
+  bool has_gradient = false, has_pressure = false;
   bool measures_error = false;
   int repeat = 1;
 };
@@ -73,9 +73,23 @@ void check_output(SumOptions const& options) {
     throw SceneError(options.output + ": the folder " + folder.string() + " does not exist");
 }
 
+// The pressure at the targets, Pa for strengths in pN and lengths in um. A rotlet has none.
+std::vector<double> pressure_of(SumOptions const& options, PointsFile const& points) {
+  std::vector<double> pressure(points.targets.size());
+  if (options.kernel == "rotlet") return pressure;
+  auto const evaluator = make_evaluator(options.kernel + "_pressure", {options.backend, options.accuracy});
+  evaluator->set_points(points.sources, points.targets, points.normals);
+  PointArray flow(points.targets.size());  // (p, 0, 0)
+  evaluator->add_velocity(points.strengths, flow);
+  double const unit = options.kernel == "stresslet" ? options.viscosity : 1.0;  // a force's does not depend on it
+  for (std::size_t i = 0; i < flow.size(); ++i) pressure[i] = unit * flow[i].x;
+  return pressure;
+}
+
 void sum(SumOptions const& options) {
   bool needs_normals = false;
-  with_kernel(options.kernel, [&](auto kernel) { needs_normals = kernel.has_normal; });
+  if (!with_kernel<AllKernels>(options.kernel, [&](auto kernel) { needs_normals = kernel.has_normal; }))
+    throw SceneError("kernel: unknown \"" + options.kernel + "\" (known: " + kernel_names() + ")");
   auto const evaluator = make_evaluator(options.kernel, {options.backend, options.accuracy, options.has_gradient});
   check_output(options);
   PointsFile points = read_points_file(options.input, needs_normals);
@@ -99,7 +113,7 @@ void sum(SumOptions const& options) {
   if (!needs_normals)  // a double layer's density is a velocity and carries no viscosity
     for (PointArray* flow : {&velocity, &gradient})
       for (Vec3d& u : *flow) u *= 1.0 / options.viscosity;
-  write_velocity(options.output, velocity, gradient);
+  write_sums(options.output, velocity, gradient, options.has_pressure ? pressure_of(options, points) : std::vector<double>{});
 
   double const pairs = double(points.sources.size()) * double(points.targets.size());
   fmt::print(
@@ -136,6 +150,10 @@ void add_sum_command(CLI::App& program, Action& chosen) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_flag("--gradient", options->has_gradient, "write d velocity_i / d x_j at the targets too: gradient [m,3,3]");
+  command->add_flag("--pressure", options->has_pressure,
+                    "write the pressure at the targets too: pressure [m]; one more sum, to the same accuracy\n"
+                    "  stokeslet  p = r.f/(4 pi r^3)      rotlet  p = 0\n"
+                    "  stresslet  p = -(mu/(2 pi)) (3 (r.q)(r.n)/r^5 - q.n/r^3)");
   command->add_flag("--reference-error", options->measures_error,
                     "measure the error against plain loops, on at most 2000 targets");
   command->add_option("--repeat", options->repeat, "evaluate so often and report the fastest")

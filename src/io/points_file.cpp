@@ -43,7 +43,7 @@ PointsFile read_points_file(std::string const& path, bool needs_normals) {
   return points;
 }
 
-void write_velocity(std::string const& path, ConstPoints velocity, ConstPoints gradient) {
+void write_sums(std::string const& path, ConstPoints velocity, ConstPoints gradient, std::vector<double> const& pressure) {
   std::string const part = path + ".part";
   try {
     ArrayFile file(part, ArrayFile::Mode::create);
@@ -53,6 +53,7 @@ void write_velocity(std::string const& path, ConstPoints velocity, ConstPoints g
       array.shape = {gradient.size() / 3, 3, 3};
       file.write(array);
     }
+    if (!pressure.empty()) file.write(NamedArray::of("pressure", pressure, "Pa"));
     file.close();
     std::filesystem::rename(part, path);
   } catch (std::exception const&) {

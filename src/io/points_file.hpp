@@ -5,6 +5,7 @@
 #include "base/arrays.hpp"
 
 #include <string>
+#include <vector>
 
 namespace asterflow {
 
@@ -19,7 +20,7 @@ struct PointsFile {
 PointsFile read_points_file(std::string const& path, bool needs_normals);
 
 // Writes the datasets velocity [m, 3] and, unless empty, gradient [m, 3, 3] (d velocity_i / d x_j; given as 3 m
-// points). A file that was there is replaced once the new one is complete.
-void write_velocity(std::string const& path, ConstPoints velocity, ConstPoints gradient);
+// points) and pressure [m]. A file that was there is replaced once the new one is complete.
+void write_sums(std::string const& path, ConstPoints velocity, ConstPoints gradient, std::vector<double> const& pressure);
 
 }  // namespace asterflow

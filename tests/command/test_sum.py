@@ -85,6 +85,27 @@ class Sum(CommandTest):
             # second order in the step over the distance of the closest pair
             self.assertLess(np.linalg.norm(gradient[:, :, axis] - difference), 1e-4 * np.linalg.norm(difference))
 
+    def test_writes_the_pressure(self):
+        def pressure(*options):
+            self.sum("--accuracy", "1e-9", "--pressure", "--viscosity", "2", *options)
+            with h5py.File(self.output) as file:
+                return file["pressure"][:]
+
+        self.write()
+        r = self.points["targets"][:, None, :] - self.points["sources"][None, :, :]
+        s = 1 / np.linalg.norm(r, axis=2)
+        q, n = self.points["strengths"], self.points["normals"]
+        rq, rn = (np.einsum("mnk,nk->mn", r, v) for v in (q, n))
+        exact = (rq * s**3).sum(axis=1) / (4 * np.pi)
+        self.assertLess(np.linalg.norm(pressure() - exact), 1e-9 * np.linalg.norm(exact))
+        exact = -2 / (2 * np.pi) * (3 * rq * rn * s**5 - (q * n).sum(axis=1) * s**3).sum(axis=1)
+        self.assertLess(np.linalg.norm(pressure("--kernel", "stresslet") - exact), 1e-9 * np.linalg.norm(exact))
+        np.testing.assert_array_equal(pressure("--kernel", "rotlet"), 0)
+
+    def test_sums_pressures_beside_velocities_only(self):
+        self.write()
+        self.refused("--kernel", "stokeslet_pressure", names=["stokeslet, stresslet, rotlet"])
+
     def test_does_not_depend_on_the_number_of_threads(self):
         random = np.random.default_rng(2)
         self.write(sources=random.random((5000, 3)), targets=None, strengths=random.standard_normal((5000, 3)))
