@@ -1,6 +1,8 @@
 // The fast backends: fast sums whose error is checked on a few targets at every sum. Parameters are chosen for the
 // error that strengths of random direction leave; where the velocities at the targets cancel, or all targets
-// are far from the sources, the same absolute error may be too large. Then a stricter sum takes over.
+// are far from the sources, the same absolute error may be too large. Then a stricter sum takes over. The
+// error may be that of the few targets next to the sources, where results are large: half of those checked are drawn
+// from the eighth of largest results of the first sum.
 
 #include "backends/backend.hpp"
 #include "backends/fast.hpp"
@@ -8,13 +10,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace asterflow {
 namespace {
 
 constexpr double strictest = 1e-12;   // fast sums cannot do better
-constexpr std::size_t n_checked = 16;  // targets
-constexpr double tolerated = 2.0;      // estimated error over the one asked for: the estimate is a sample's
+constexpr std::size_t n_checked = 96;  // targets
+constexpr double tolerated = 1.0;      // estimated error over the one asked for
 constexpr double margin = 0.3;         // of the next accuracy, where one was missed
 
 double square(ConstPoints points) {
@@ -37,22 +40,16 @@ class CheckedFast final : public Evaluator {
     sources_.assign(sources.begin(), sources.end());
     targets_.assign(targets.begin(), is_self_ ? targets.begin() : targets.end());
     normals_.assign(normals.begin(), normals.end());
-    choose_checked();
+    checked_.clear();
+    exact_.reset();
   }
 
   void add_velocity(ConstPoints strengths, Points velocity) override {
-    PointArray sum(velocity.size());
-    used().add_velocity(strengths, sum);
-    for (double missed = excess(strengths, sum); missed > tolerated; missed = excess(strengths, sum)) {
-      if (accuracy_ < strictest) break;  // direct sums
-      tighten(missed);
-      std::fill(sum.begin(), sum.end(), Vec3d{});
-      used().add_velocity(strengths, sum);
-    }
-    for (std::size_t i = 0; i < sum.size(); ++i) velocity[i] += sum[i];
+    add_checked(&Evaluator::add_velocity, 1, strengths, velocity);
   }
-
-  void add_gradient(ConstPoints strengths, Points gradient) override { used().add_gradient(strengths, gradient); }
+  void add_gradient(ConstPoints strengths, Points gradient) override {
+    add_checked(&Evaluator::add_gradient, 3, strengths, gradient);
+  }
 
   std::string_view backend() const override { return name_; }
   std::size_t memory() const override {
@@ -62,6 +59,25 @@ class CheckedFast final : public Evaluator {
   }
 
  private:
+  struct Checked {
+    std::size_t target;
+    double stands_for;  // so many targets
+  };
+  using Add = void (Evaluator::*)(ConstPoints strengths, Points result);
+
+  // Stricter until the error at the checked targets is what was asked for. `rows` points of the result per target.
+  void add_checked(Add add, std::size_t rows, ConstPoints strengths, Points result) {
+    PointArray sum(result.size());
+    (used().*add)(strengths, sum);
+    for (double missed = excess(add, rows, strengths, sum); missed > tolerated; missed = excess(add, rows, strengths, sum)) {
+      if (accuracy_ < strictest) break;  // direct sums
+      tighten(missed);
+      std::fill(sum.begin(), sum.end(), Vec3d{});
+      (used().*add)(strengths, sum);
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i) result[i] += sum[i];
+  }
+
   Evaluator& used() { return stricter_ ? *stricter_ : *first_; }
   ConstPoints targets() const { return is_self_ ? ConstPoints(sources_) : ConstPoints(targets_); }
 
@@ -70,31 +86,42 @@ class CheckedFast final : public Evaluator {
     return make_fast(kernel_, fast_parameters(kernel_, accuracy, options_.gradient), instructions_, name_);
   }
 
-  // Every n-th target in their own order, all where there are few.
-  void choose_checked() {
-    checked_.clear();
-    exact_.reset();
-    std::size_t const n = targets().size();
-    if (accuracy_ < strictest || n == 0 || sources_.empty()) return;
+  // Evenly in their own order, all where there are few.
+  void choose_checked(std::size_t rows, ConstPoints result) {
+    std::vector<double> sizes(targets().size());
+    for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = square(result.subspan(rows * i, rows));
+    std::vector<double> sorted = sizes;
+    auto const eighth = sorted.begin() + static_cast<long>(sizes.size() / 8);
+    std::nth_element(sorted.begin(), eighth, sorted.end(), std::greater<>());
     PointArray some;
-    for (std::size_t k = 0; k < std::min(n, n_checked); ++k) {
-      checked_.push_back(n <= n_checked ? k : (2 * k + 1) * n / (2 * n_checked));
-      some.push_back(targets()[checked_.back()]);
+    for (bool is_large : {true, false}) {
+      std::vector<std::size_t> group;
+      for (std::size_t i = 0; i < sizes.size(); ++i)
+        if ((sizes[i] > *eighth) == is_large) group.push_back(i);
+      std::size_t const n = std::min(group.size(), n_checked / 2);
+      for (std::size_t k = 0; k < n; ++k) {
+        checked_.push_back({group[(2 * k + 1) * group.size() / (2 * n)], static_cast<double>(group.size()) / static_cast<double>(n)});
+        some.push_back(targets()[checked_.back().target]);
+      }
     }
-    exact_ = make_direct(kernel_, {.accuracy = std::min(1e-8, 0.01 * accuracy_)});
+    exact_ = make_direct(kernel_, {.accuracy = std::min(1e-8, 0.01 * options_.accuracy), .gradient = options_.gradient});
     exact_->set_points(sources_, some, normals_);
   }
 
   // Estimated error over the error asked for.
-  double excess(ConstPoints strengths, ConstPoints velocity) {
-    if (!exact_) return 0.0;
-    PointArray difference(checked_.size());
-    exact_->add_velocity(strengths, difference);
-    for (std::size_t k = 0; k < checked_.size(); ++k) difference[k] -= velocity[checked_[k]];
-    double const size = square(velocity);
-    if (size == 0.0) return square(difference) > 0.0 ? 1.0 / options_.accuracy : 0.0;
-    double const share = static_cast<double>(checked_.size()) / static_cast<double>(velocity.size());
-    return std::sqrt(square(difference) / (share * size)) / options_.accuracy;
+  double excess(Add add, std::size_t rows, ConstPoints strengths, ConstPoints result) {
+    if (result.empty() || sources_.empty()) return 0.0;
+    if (!exact_) choose_checked(rows, result);
+    PointArray exact(rows * checked_.size());
+    (exact_.get()->*add)(strengths, exact);
+    double error = 0.0;
+    for (std::size_t k = 0; k < exact.size(); ++k) {
+      Vec3d const difference = exact[k] - result[rows * checked_[k / rows].target + k % rows];
+      error += checked_[k / rows].stands_for * dot(difference, difference);
+    }
+    double const size = square(result);
+    if (size == 0.0) return error > 0.0 ? 1.0 / options_.accuracy : 0.0;
+    return std::sqrt(error / size) / options_.accuracy;
   }
 
   void tighten(double missed) {
@@ -113,7 +140,7 @@ class CheckedFast final : public Evaluator {
   bool is_strictest_ = false;
   bool is_self_ = false;   // targets are the sources
   PointArray sources_, targets_, normals_;
-  std::vector<std::size_t> checked_;
+  std::vector<Checked> checked_;
   std::unique_ptr<Evaluator> first_, stricter_;  // stricter_: in place of first_ where that was not enough
   std::unique_ptr<Evaluator> exact_;             // at the checked targets
 };

@@ -100,5 +100,23 @@ TEST_P(Gradient, skips_coincident_points) {
       EXPECT_LE(relative_difference(gradient(GetParam(), backend, accuracy, p), exact), accuracy) << backend;
 }
 
+TEST_P(Gradient, of_the_fast_sum_honours_the_accuracy_where_velocities_cancel_or_targets_are_far) {
+  Points_with_strengths p = random_points(GetParam(), 2000, 1500);
+  for (std::size_t i = 0; i < 1000; ++i) {
+    p.sources[2 * i + 1] = p.sources[2 * i] + 1e-3 * random_vector(static_cast<long>(i), 5);
+    p.strengths[2 * i + 1] = -p.strengths[2 * i];
+    if (!p.normals.empty()) p.normals[2 * i + 1] = p.normals[2 * i];
+  }
+  for (double distance : {2.0, 200.0}) {
+    for (std::size_t i = 0; i < p.targets.size(); ++i)
+      p.targets[i] = distance * (random_vector(static_cast<long>(i), 9) + Vec3d{1.0, 0.0, 0.0});
+    PointArray const exact = gradient(GetParam(), "reference", 1e-15, p);
+    for (double accuracy : {1e-3, 1e-6})
+      // The error is judged by a sample of the targets.
+      EXPECT_LE(relative_difference(gradient(GetParam(), "fast", accuracy, p), exact), 2.0 * accuracy)
+          << distance << " " << accuracy;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(kernels, Gradient, testing::Values("stokeslet", "stresslet", "rotlet"),
                          [](auto const& kernel) { return kernel.param; });
