@@ -31,26 +31,35 @@ struct Choice {
 
 struct Problem {
   PointArray points, strengths, normals;
+  std::vector<std::size_t> chosen;  // targets at which the error is measured
+  PointArray exact;                 // velocity there
 };
 
 Problem make_problem(std::string const& kernel, std::string const& distribution, long n) {
-  return {bench::points(distribution, n), bench::strengths(n), kernel == "stresslet" ? bench::normals(n) : PointArray{}};
-}
-
-double achieved_error(std::string const& kernel, Problem const& problem, PointArray const& velocity) {
-  std::size_t const n = problem.points.size(), n_target = std::min<std::size_t>(n, 2000);
-  PointArray targets, some;
-  for (std::size_t k = 0; k < n_target; ++k) {
-    auto const i = n <= n_target ? k : static_cast<std::size_t>(uniform_random(11, k, 0, 0) * static_cast<double>(n));
-    targets.push_back(problem.points[i]);
-    some.push_back(velocity[i]);
+  Problem problem{bench::points(distribution, n), bench::strengths(n),
+                  kernel.starts_with("stresslet") ? bench::normals(n) : PointArray{}, {}, {}};
+  PointArray targets;
+  long const n_target = std::min(n, 2000L);
+  for (long k = 0; k < n_target; ++k) {
+    problem.chosen.push_back(static_cast<std::size_t>(
+        n <= n_target ? static_cast<double>(k) : uniform_random(11, k, 0, 0) * static_cast<double>(n)));
+    targets.push_back(problem.points[problem.chosen.back()]);
   }
-  PointArray exact(targets.size());
+  problem.exact.resize(targets.size());
   auto const reference = make_evaluator(kernel, {"reference", 1e-15});
   reference->set_points(problem.points, targets, problem.normals);
-  reference->add_velocity(problem.strengths, exact);
-  auto const difference = flat(ConstPoints(some)) - flat(ConstPoints(exact));
-  return difference.norm() / flat(ConstPoints(exact)).norm();
+  reference->add_velocity(problem.strengths, problem.exact);
+  return problem;
+}
+
+double achieved_error(Problem const& problem, PointArray const& velocity) {
+  double error = 0.0, size = 0.0;
+  for (std::size_t k = 0; k < problem.chosen.size(); ++k) {
+    Vec3d const difference = velocity[problem.chosen[k]] - problem.exact[k];
+    error += dot(difference, difference);
+    size += dot(problem.exact[k], problem.exact[k]);
+  }
+  return std::sqrt(error / size);
 }
 
 void measure(Choice const& choice, std::string const& backend, std::string const& kernel, std::string const& distribution,
@@ -75,7 +84,7 @@ void measure(Choice const& choice, std::string const& backend, std::string const
              "\"accuracy\": {:.1e}, \"error\": {:.2e}, \"set_up_seconds\": {:.4g}, \"set_up_cpu_seconds\": {:.4g}, "
              "\"execute_seconds\": {:.4g}, \"execute_cpu_seconds\": {:.4g}, \"bytes\": {}, \"threads\": {}, \"commit\": \"{}\"}}\n",
              backend, evaluator->backend(), kernel, distribution, problem.points.size(), accuracy,
-             achieved_error(kernel, problem, velocity), set_up, set_up_cpu, wall, cpu, evaluator->memory(), thread_count(), ASTERFLOW_COMMIT);
+             achieved_error(problem, velocity), set_up, set_up_cpu, wall, cpu, evaluator->memory(), thread_count(), ASTERFLOW_COMMIT);
   std::fflush(stdout);
 }
 
