@@ -6,6 +6,7 @@
 #include "base/timer.hpp"
 #include "kernels/stokeslet.hpp"
 
+#include <Eigen/LU>
 #include <numeric>
 
 namespace asterflow {
@@ -39,6 +40,7 @@ Vector6 rotated(Matrix3 const& rotation, Vector6 const& v) {
 
 Radiation::Radiation(std::vector<Flow> body_flows, Flow periphery_flow, RadiationOptions options)
     : bodies_(std::move(body_flows)), periphery_(std::move(periphery_flow)), options_(std::move(options)) {
+  images_.resize(bodies_.size() + (periphery_ ? 1 : 0));
   for (Flow const& body : bodies_) mobilities_.push_back(body->resistance().inverse());
 }
 
@@ -93,7 +95,10 @@ void Radiation::plan_fibers(FiberNodes const& fibers) {
   }
   stokeslets_->set_points(fibers.positions, nodes_);
   if (rough_stokeslets_) rough_stokeslets_->set_points(fibers.positions, nodes_);
-  if (periphery_) images_.place(periphery_->surface(), fibers.positions, fibers.weights, first_fiber_node_);
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    images_[b].place(bodies_[b]->surface(), Side::exterior, poses_[b], fibers.positions, fibers.weights, first_fiber_node_);
+  if (periphery_)
+    images_.back().place(periphery_->surface(), Side::interior, {}, fibers.positions, fibers.weights, first_fiber_node_);
   close_nodes_.find(fibers.positions, fibers.weights, first_fiber_node_);
   strengths_.resize(n_fiber_nodes_);
 }
@@ -137,11 +142,13 @@ void Radiation::add_fibers(ConstPoints force_density, Exchange kind, Points rece
   for (std::size_t i = 0; i < n_fiber_nodes_; ++i) strengths_[i] = (scale * weights_[i]) * force_density[i];
   bool const is_rough = kind == Exchange::rough && rough_stokeslets_;
   (is_rough ? rough_stokeslets_ : stokeslets_)->add_velocity(strengths_, received);
-  if (is_rough)
-    images_.add_velocity<float>(strengths_, nodes_, received);
-  else
-    images_.add_velocity<double>(strengths_, nodes_, received);
-  images_.add_own_resolution(strengths_, nodes_, received);
+  for (WallImages const& images : images_) {
+    if (is_rough)
+      images.add_velocity<float>(strengths_, nodes_, received);
+    else
+      images.add_velocity<double>(strengths_, nodes_, received);
+    images.add_own_resolution(strengths_, nodes_, received);
+  }
   close_nodes_.add_correction(strengths_, received);
   parallel_for("Radiation::own_flow", static_cast<long>(first_fiber_node_.size()) - 1, [&](long fiber) {
     std::size_t const begin = first_fiber_node_[fiber], end = first_fiber_node_[fiber + 1];
@@ -207,7 +214,7 @@ void Radiation::add_velocity(ConstPoints force_density, std::vector<Vector6> con
       strengths[i] = (weights_[i] / options_.viscosity) * force_density[i];
     sum->set_points(ConstPoints(nodes_).first(n_fiber_nodes_), targets);
     sum->add_velocity(strengths, velocity);
-    images_.add_velocity<double>(strengths, targets, velocity);
+    for (WallImages const& images : images_) images.add_velocity<double>(strengths, targets, velocity);
   }
   PointArray local(targets.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -220,8 +227,8 @@ void Radiation::add_velocity(ConstPoints force_density, std::vector<Vector6> con
 }
 
 std::size_t Radiation::memory() const {
-  std::size_t bytes = sizeof(Vec3d) * (nodes_.size() + strengths_.size()) + sizeof(double) * weights_.size() +
-                      images_.memory();
+  std::size_t bytes = sizeof(Vec3d) * (nodes_.size() + strengths_.size()) + sizeof(double) * weights_.size();
+  for (auto const& images : images_) bytes += images.memory();
   for (auto const& flow : bodies_) bytes += flow->memory();
   if (periphery_) bytes += periphery_->memory();
   return bytes + (stokeslets_ ? stokeslets_->memory() : 0) +

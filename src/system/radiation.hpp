@@ -4,7 +4,7 @@
 // Nodes are numbered: hydrodynamic nodes of the fibers, then surface nodes of each body, then those of the periphery.
 // Incident flow means, at the nodes of one object, the velocity due to all OTHER objects. An object's own flow is
 //   fiber      sum of Stokeslets of strength weight x force density over its nodes     [paper, Eq. 3b]
-//              and, where the periphery is close, of their images behind it (wall_images.hpp); bounded at nodes of other
+//              and, where a body or the periphery is close, of their images behind it (wall_images.hpp); bounded at nodes of other
 //              fibers that are too close to be resolved (close_nodes.hpp)
 //   body       exterior Dirichlet flow with wall velocity U + Omega x r - incident     [Eq. 3d, 5]
 //   periphery  interior Dirichlet flow with wall velocity - incident                   [Eq. 3c, 4]
@@ -112,7 +112,7 @@ class Radiation {
   std::size_t n_fiber_nodes_ = 0;
   PointArray nodes_;
   std::vector<double> weights_;
-  WallImages images_;
+  std::vector<WallImages> images_;  // in each body, then behind the periphery
   std::vector<DirichletFlow::Targets> body_targets_;    // per body: nodes of fibers and periphery
   std::vector<DirichletFlow::Targets> body_neighbours_;  // per body: nodes of the other bodies
   DirichletFlow::Targets periphery_targets_;          // all nodes but its own

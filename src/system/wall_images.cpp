@@ -1,6 +1,7 @@
 #include "system/wall_images.hpp"
 
 #include "base/parallel.hpp"
+#include "surface/dirichlet_flow.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -11,6 +12,8 @@ namespace asterflow {
 namespace {
 
 constexpr double negligible = 1e-3;  // nearness
+constexpr double closest = 0.02;     // least distance over w: forces may lie on a body
+
 // As many targets as fill a vector register are summed at once.
 template <class Real>
 constexpr long n_lane = 64 / sizeof(Real);
@@ -73,17 +76,20 @@ void scatter(LanesOfVectors<Real> const& u, long first, long count, Points veloc
 
 }  // namespace
 
-void WallImages::place(Surface const& wall, ConstPoints positions, ConstVector weights,
+void WallImages::place(Surface const& wall, Side side, RigidPose const& pose, ConstPoints positions, ConstVector weights,
                        std::vector<std::size_t> const& first) {
   // Forces farther than 0.75 spacings are resolved to better than what curvature costs those at 0.2 spacings.
   double const reach = 0.75 * std::numbers::pi * wall.shape().size() / wall.order();
+  is_body_ = side == Side::exterior;
+  centre_ = pose.point(wall.shape().centre());
+  double const outwards = is_body_ ? 1.0 : -1.0;
   std::vector<Image> all(positions.size());
   parallel_for("WallImages::place", static_cast<long>(first.size()) - 1, [&](long fiber) {
     for (std::size_t i = first[fiber]; i < first[fiber + 1]; ++i) {
-      ClosestPoint const at = wall.shape().closest_point(positions[i]);
-      double const distance = std::abs(at.distance);
-      all[i] = {i, first[fiber], first[fiber + 1], at.position, -at.normal, std::exp(-std::pow(distance / reach, 8)),
-                distance, std::max(distance, 0.5 * weights[i])};
+      ClosestPoint const at = wall.shape().closest_point(pose.rotation.transpose() * (positions[i] - pose.position));
+      double const distance = std::max(outwards * at.distance, closest * weights[i]);
+      all[i] = {i, first[fiber], first[fiber + 1], pose.point(at.position), outwards * (pose.rotation * at.normal),
+                std::exp(-std::pow(distance / reach, 8)), distance, std::max(distance, 0.5 * weights[i])};
     }
   });
   images_.clear();
@@ -91,9 +97,38 @@ void WallImages::place(Surface const& wall, ConstPoints positions, ConstVector w
                [](Image const& image) { return image.nearness > negligible; });
 }
 
+WallImages::Moments WallImages::moments(ConstPoints strengths) const {
+  Moments sum;
+  for (Image const& image : images_) {
+    Vec3d const e = image.normal, f = image.nearness * strengths[image.source], a = f - 2.0 * dot(f, e) * e;
+    sum.force -= f;
+    sum.first += -to_eigen(image.foot - image.distance * e - centre_) * to_eigen(f).transpose() +
+                 2.0 * image.distance * to_eigen(a) * to_eigen(e).transpose();
+  }
+  return sum;
+}
+
+// Minus force, torque L and symmetric traceless moment S of the images, at the centre:
+//   u = (1 / 8 pi) (F / r + r (r . F) / r^3 + L x r / r^3 + 3 r (r . S r) / r^5).
+void WallImages::add_centre(ConstPoints strengths, ConstPoints targets, Points velocity) const {
+  Moments const sum = moments(strengths);
+  Vec3d const force = -sum.force;
+  Matrix3 const& m = sum.first;
+  Vec3d const torque = -Vec3d{m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0)};
+  Matrix3 const stresslet = -0.5 * (m + m.transpose()) + (m.trace() / 3.0) * Matrix3::Identity();
+  constexpr double scale = 1.0 / (8.0 * std::numbers::pi);
+  parallel_for("WallImages::centre", static_cast<long>(targets.size()), [&](long i) {
+    Vec3d const r = targets[i] - centre_;
+    double const s2 = 1.0 / dot(r, r), s = std::sqrt(s2), s3 = s * s2;
+    velocity[i] += scale * (s * force + s3 * cross(torque, r) +
+                            s3 * (dot(r, force) + 3.0 * s2 * dot(r, stresslet * r)) * r);
+  });
+}
+
 template <class Real>
 void WallImages::add_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const {
   if (images_.empty()) return;
+  if (is_body_) add_centre(strengths, targets, velocity);
   std::vector<PointImage<Real>> images;
   for (Image const& image : images_)
     images.emplace_back(image.nearness * strengths[image.source], image.foot, image.normal, image.distance);

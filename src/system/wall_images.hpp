@@ -1,25 +1,33 @@
 #pragma once
-// Images of the forces of fibers that are close to a wall. A force f at a distance d from the wall is felt there over a
-// spot of the size d; where that is less than the spacing of the wall's nodes, they see a flow that they cannot resolve
-// and leave most of the force unscreened. What is put behind the wall does not change the flow in front of it, as the
-// wall's own flow makes up for it. So every close force gets the image that keeps a plane wall at rest
+// Images of the forces of fibers that are close to a wall: the cortex or a body. A force f at a distance d from the wall is
+// felt there over a spot of the size d; where that is less than the spacing of the wall's nodes, they see a flow that they
+// cannot resolve and leave most of the force unscreened. What is put behind the wall does not change the flow in front of
+// it, as the wall's own flow makes up for it. So every close force gets the image that keeps a plane wall at rest
 // [Blake 1971, Eq. 9], at the mirrored point,
 //   u = -G f - 2 d (a . grad) G e + d^2 lap G a,   a = f - 2 (f . e) e,
 // G the Stokeslet, e the normal into the fluid, and the nodes see only what the curvature of the wall leaves of the force.
 // Images fade out where forces are farther than the spacing of the nodes.
 //
+// Images in a body are joined by a force, a torque and a stresslet at its centre that make up for theirs: load and first
+// moment of the body remain those that its nodes show.
+//
 // A force stands for a length w of its fiber. The fiber meets its own images no closer than it is resolved: as if it
 // were at the distance max(d, w / 2).
 
+#include "base/rigid.hpp"
 #include "surface/surface.hpp"
 
 namespace asterflow {
 
+enum class Side;
+
 class WallImages {
  public:
+  // The fluid is on that side of the wall, whose frame is at `pose`.
   // positions [n] um of forces and the lengths `weights` [n] um that they stand for; fiber i owns [first[i], first[i + 1]).
   // Overwrites.
-  void place(Surface const& wall, ConstPoints positions, ConstVector weights, std::vector<std::size_t> const& first);
+  void place(Surface const& wall, Side side, RigidPose const& pose, ConstPoints positions, ConstVector weights,
+             std::vector<std::size_t> const& first);
 
   std::size_t size() const { return images_.size(); }
   std::size_t memory() const { return images_.capacity() * sizeof(Image); }  // bytes
@@ -28,7 +36,7 @@ class WallImages {
   // Real: double, or float for the inside of a preconditioner.
   template <class Real>
   void add_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const;
-  // velocity [n] at the forces += what a fiber feels of its own images, less than that flow.
+  // velocity [n] at the forces += what a fiber feels of its own images, less that flow.
   void add_own_resolution(ConstPoints strengths, ConstPoints positions, Points velocity) const;
 
  private:
@@ -40,7 +48,16 @@ class WallImages {
     double distance;  // d, um
     double resolved;  // max(d, w / 2), um
   };
+  struct Moments {  // of images about the centre, over viscosity
+    Vec3d force;    // um^2/s
+    Matrix3 first = Matrix3::Zero();  // position x force, um^3/s
+  };
 
+  Moments moments(ConstPoints strengths) const;
+  void add_centre(ConstPoints strengths, ConstPoints targets, Points velocity) const;
+
+  bool is_body_ = false;
+  Vec3d centre_;  // um, of a body
   std::vector<Image> images_;
 };
 
