@@ -145,3 +145,47 @@ TEST(Observables, of_a_closed_scene_balance_force_and_torque) {
   EXPECT_LT(value(seen.flow, "fluid_speed_ratio"), 1.0);
   EXPECT_LT(value(seen.flow, "no_slip_residual"), 1e-3);
 }
+
+namespace {
+
+// An aster in a cell whose plus ends reach the cortex within the first second.
+std::string const crowded_cell = R"(
+  [fluid]
+  viscosity = 0.8
+  [periphery]
+  shape = "ellipsoid"
+  semi_axes = [9.0, 7.0, 7.0]
+  [[body]]
+  name = "ball"
+  shape = "sphere"
+  radius = 2.0
+  position = [1.0, 0.5, 0.0]
+  [[aster]]
+  body = "ball"
+  position = [0.0, 2.0, 0.0]
+  count = 12
+  length = 8.0
+  growing = true
+  [dynamic_instability]
+  [run]
+  accuracy = 1e-2
+)";
+
+// Force and torque of what the cortex does to plus ends are all that is not balanced within body, fibers and fluid.
+void expect_balance(std::string const& mechanism, std::string const& held) {
+  auto const seen = observed_after(crowded_cell + mechanism, 1.0);
+  EXPECT_GT(value(seen.fibers, held), 0.0);
+  EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-8 * value(seen.fibers, "plus_end_force"));
+}
+
+}  // namespace
+
+TEST(Observables, of_confined_pushing_balance_the_forces_on_plus_ends) {
+  expect_balance("[pushing]\nsliding = \"none\"\n", "fibers_pushing");
+  expect_balance("[pushing]\nsliding = \"friction\"\nfriction = 5.0\n", "fibers_pushing");
+  expect_balance("[pushing]\nsliding = \"free\"\n", "fibers_pushing");
+}
+
+TEST(Observables, of_confined_capture_balance_the_forces_on_plus_ends) {
+  expect_balance("[cortical_pulling]\nsites = 300\ncapture_rate = 20.0\n", "fibers_captured");
+}
