@@ -79,7 +79,9 @@ void scatter(LanesOfVectors<Real> const& u, long first, long count, Points veloc
 void WallImages::place(Surface const& wall, Side side, RigidPose const& pose, ConstPoints positions, ConstVector weights,
                        std::vector<std::size_t> const& first) {
   // Forces farther than 0.75 spacings are resolved to better than what curvature costs those at 0.2 spacings.
-  double const reach = 0.75 * std::numbers::pi * wall.shape().size() / wall.order();
+  // Images stay well within a thin body.
+  double const size = wall.shape().size(), smallest = size / wall.shape().aspect_ratio();
+  double const reach = std::min(0.75 * std::numbers::pi * size / wall.order(), 0.6 * smallest);
   is_body_ = side == Side::exterior;
   centre_ = pose.point(wall.shape().centre());
   double const outwards = is_body_ ? 1.0 : -1.0;

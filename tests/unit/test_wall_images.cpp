@@ -103,6 +103,16 @@ TEST(WallImages, are_not_made_of_distant_forces) {
   EXPECT_EQ(images.size(), 0u);  // nodes of the cell are 4 um apart
 }
 
+TEST(WallImages, stay_within_a_thin_body) {
+  ShapeSpec spec;
+  spec.kind = ShapeSpec::Kind::ellipsoid;
+  spec.semi_axes = {3, 0.3, 0.3};
+  Surface const rod(make_shape(spec), 6);  // nodes 1.6 um apart
+  WallImages images;
+  images.place(rod, Side::exterior, {}, PointArray{{0, 1.0, 0}, {0, 0.4, 0}}, std::vector{0.1, 0.1}, {0, 2});
+  EXPECT_EQ(images.size(), 1u);  // of the force at 0.1 um: that of the one at 0.7 um would lie beyond the rod
+}
+
 namespace {
 
 constexpr double radius = 5.0;
