@@ -29,9 +29,9 @@ class Studies(CommandTest):
 
     def test_a_mechanism_runs_and_goes_on(self):
         first = self.study("figure06", "--fibers", 6, "--end-time", 6)
-        self.assertIn("not within 0.1 min", first["time to the centre"])
+        self.assertIn("not within 0.1 min", first["time to within 1 um of the centre"])
         longer = self.study("figure06", "--fibers", 6, "--end-time", 12)
-        self.assertIn("not within 0.2 min", longer["time to the centre"])
+        self.assertIn("not within 0.2 min", longer["time to within 1 um of the centre"])
 
 
 if __name__ == "__main__":
