@@ -30,6 +30,10 @@ constexpr double separate_points = 1.33;
 // What a fast sum costs besides its plan's prediction, per point: sorting and checking.
 constexpr double fast_point = 150.0;  // ns
 
+// Plans foretell too little where many digits make grids and lists outgrow the caches: this much at nine digits,
+// less below, nothing at six.
+constexpr double underestimate = 0.2;
+
 // Points below which fast sums are direct ones, and factor beyond the crossover of a uniform cloud where no plan
 // is needed to see which is cheaper.
 constexpr double fewest = 1000.0, clear = 4.0;
@@ -76,7 +80,8 @@ class Automatic final : public Evaluator {
     if (direct > clear * usual) return true;
     Plan const plan = best_plan(sources, targets, fast_parameters(kernel_, options_.accuracy, options_.gradient),
                                 n_component(fast_kernel(kernel_)));
-    return direct > plan.cost + fast_point * n;
+    double const dearer = 1.0 + underestimate * std::clamp(digits / 3.0 - 2.0, 0.0, 1.0);
+    return direct > dearer * (plan.cost + fast_point * n);
   }
 
   std::string kernel_;
