@@ -61,6 +61,10 @@ RunSpec read_run(Table table, bool has_periphery) {
   if (std::find(known.begin(), known.end(), run.evaluator) == known.end())
     table.fail("evaluator", fmt::format("must be one of {}", fmt::join(known, ", ")));
   table.read("evaluator_accuracy", run.evaluator_accuracy, between(1e-15, 1e-3));
+  table.read_choice<ImagesBehind>("images", run.images,
+                                  {{"none", ImagesBehind::nothing},
+                                   {"periphery", ImagesBehind::periphery},
+                                   {"all", ImagesBehind::everything}});
   table.read("seed", run.seed);
   table.finish();
   run.set_defaults_from_accuracy();

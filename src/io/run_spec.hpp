@@ -13,6 +13,9 @@ enum class Interactions { local, open, confined };
 
 std::string_view name_of(Interactions level);
 
+// Which surfaces the forces of fibers close to them get images behind (docs/accuracy.md).
+enum class ImagesBehind { nothing, periphery, everything };
+
 struct RunSpec {
   Interactions interactions = Interactions::open;  // confined when the scene has a periphery
   double accuracy = 1e-4;       // relative, 1e-10 to 1e-1
@@ -26,6 +29,7 @@ struct RunSpec {
   int gmres_max_iterations = 200;  // > 0; a solve that needs more is a failed step
   std::string evaluator = "auto";  // auto, reference, direct, fast: who sums pairs (asterflow sum --help)
   double evaluator_accuracy = 0.0;  // relative error of pair sums; 0: accuracy / 10
+  ImagesBehind images = ImagesBehind::periphery;
   std::uint64_t seed = 1;          // of all chance
 
   void set_defaults_from_accuracy();  // replaces the zeros

@@ -41,11 +41,17 @@ SceneFlows make_flows(Scene const& scene) {
   return flows;
 }
 
+RadiationOptions radiation_options(Scene const& scene) {
+  return {.viscosity = scene.fluid.viscosity,
+          .evaluator = scene.run.evaluator,
+          .accuracy = scene.run.evaluator_accuracy,
+          .has_images_behind_periphery = scene.run.images != ImagesBehind::nothing,
+          .has_images_in_bodies = scene.run.images == ImagesBehind::everything};
+}
+
 std::unique_ptr<Radiation> make_radiation(Scene const& scene, SceneFlows const& flows) {
-  auto const& run = scene.run;
-  if (run.interactions == Interactions::local) return nullptr;
-  return std::make_unique<Radiation>(flows.bodies, flows.periphery,
-                                     RadiationOptions{scene.fluid.viscosity, run.evaluator, run.evaluator_accuracy});
+  if (scene.run.interactions == Interactions::local) return nullptr;
+  return std::make_unique<Radiation>(flows.bodies, flows.periphery, radiation_options(scene));
 }
 
 Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double viscosity) {

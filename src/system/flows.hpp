@@ -13,6 +13,8 @@ struct SceneFlows {
 
 SceneFlows make_flows(Scene const& scene);
 
+RadiationOptions radiation_options(Scene const& scene);
+
 // How the objects of a scene exchange their flows; null in a `local` scene.
 std::unique_ptr<Radiation> make_radiation(Scene const& scene, SceneFlows const& flows);
 

@@ -34,6 +34,7 @@ struct RadiationOptions {
   double viscosity = 1.0;  // pN s/um^2
   std::string evaluator = "auto";
   double accuracy = 1e-6;  // of the pair sums
+  bool has_images_behind_periphery = true, has_images_in_bodies = true;
 };
 
 // As accurate as asked for, or at a fraction of the cost: for the inside of a preconditioner.
