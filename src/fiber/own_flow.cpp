@@ -5,7 +5,6 @@
 #include "kernels/stokeslet.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 namespace asterflow {
 namespace {
@@ -28,7 +27,7 @@ Eigen::MatrixXd finite_part(FiberBasis const& basis, double largest) {
 void OwnFlow::prepare(FiberBasis const& basis, Centreline const& shape, ConstPoints nodes, double mobility,
                       double viscosity) {
   int const n = basis.n_node;
-  double const scale = 1.0 / (8.0 * std::numbers::pi * viscosity);
+  double const scale = Stokeslet::prefactor / viscosity;
   Eigen::MatrixXd const integral = finite_part(basis, std::max(mobility / scale - 1.0, 0.0));
   matrix_.resize(3 * n, 3 * n);
   for (int i = 0; i < n; ++i) {

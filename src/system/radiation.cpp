@@ -95,8 +95,10 @@ void Radiation::plan_fibers(FiberNodes const& fibers) {
   }
   stokeslets_->set_points(fibers.positions, nodes_);
   if (rough_stokeslets_) rough_stokeslets_->set_points(fibers.positions, nodes_);
-  for (std::size_t b = 0; b < bodies_.size() && options_.has_images_in_bodies; ++b)
-    images_[b].place(bodies_[b]->surface(), Side::exterior, poses_[b], fibers.positions, fibers.weights, first_fiber_node_);
+  if (options_.has_images_in_bodies)
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      images_[b].place(bodies_[b]->surface(), Side::exterior, poses_[b], fibers.positions, fibers.weights,
+                       first_fiber_node_);
   if (periphery_ && options_.has_images_behind_periphery)
     images_.back().place(periphery_->surface(), Side::interior, {}, fibers.positions, fibers.weights, first_fiber_node_);
   close_nodes_.find(fibers.positions, fibers.weights, first_fiber_node_);

@@ -40,7 +40,6 @@ void Scattering::answer(ConstPoints u, std::vector<Vector6> loads, bool affine, 
   fibers_.add_linear_response(u, motions, force_density, {});
 }
 
-// received += what all objects send in answer to z.
 void Scattering::add_answer(ConstPoints z, bool affine, Points received, Exchange kind) const {
   std::vector<Vector6> loads, motions;
   for (std::size_t b = 0; b < bodies_.size(); ++b) loads.push_back(radiation_->load_of_incident(b, z));

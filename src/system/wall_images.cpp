@@ -1,6 +1,7 @@
 #include "system/wall_images.hpp"
 
 #include "base/parallel.hpp"
+#include "kernels/stokeslet.hpp"
 #include "surface/dirichlet_flow.hpp"
 
 #include <Eigen/Core>
@@ -70,8 +71,7 @@ struct PointImage {
 
 template <class Real>
 void scatter(LanesOfVectors<Real> const& u, long first, long count, Points velocity) {
-  constexpr double scale = 1.0 / (8.0 * std::numbers::pi);
-  for (int i = 0; i < count; ++i) velocity[first + i] += scale * Vec3d{double(u.x[i]), double(u.y[i]), double(u.z[i])};
+  for (int i = 0; i < count; ++i) velocity[first + i] += Stokeslet::prefactor * Vec3d{double(u.x[i]), double(u.y[i]), double(u.z[i])};
 }
 
 }  // namespace
@@ -118,12 +118,11 @@ void WallImages::add_centre(ConstPoints strengths, ConstPoints targets, Points v
   Matrix3 const& m = sum.first;
   Vec3d const torque = -Vec3d{m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0)};
   Matrix3 const stresslet = -0.5 * (m + m.transpose()) + (m.trace() / 3.0) * Matrix3::Identity();
-  constexpr double scale = 1.0 / (8.0 * std::numbers::pi);
   parallel_for("WallImages::centre", static_cast<long>(targets.size()), [&](long i) {
     Vec3d const r = targets[i] - centre_;
     double const s2 = 1.0 / dot(r, r), s = std::sqrt(s2), s3 = s * s2;
-    velocity[i] += scale * (s * force + s3 * cross(torque, r) +
-                            s3 * (dot(r, force) + 3.0 * s2 * dot(r, stresslet * r)) * r);
+    velocity[i] += Stokeslet::prefactor * (s * force + s3 * cross(torque, r) +
+                                           s3 * (dot(r, force) + 3.0 * s2 * dot(r, stresslet * r)) * r);
   });
 }
 
