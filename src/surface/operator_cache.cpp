@@ -1,7 +1,8 @@
 #include "surface/operator_cache.hpp"
 
+#include "base/cache_folder.hpp"
+
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
@@ -30,15 +31,6 @@ std::uint64_t checksum(ShellOperator::Matrices const& matrices) {
   std::uint64_t sum = matrices.size();
   for (auto const& m : matrices) sum = checksum(m.data(), static_cast<std::size_t>(m.size()), sum + static_cast<std::uint64_t>(m.rows()));
   return sum;
-}
-
-// Empty: nothing is stored.
-std::filesystem::path cache_folder() {
-  auto const variable = [](char const* name) { return std::string(std::getenv(name) ? std::getenv(name) : ""); };
-  if (auto const chosen = variable("ASTERFLOW_CACHE"); !chosen.empty()) return chosen == "off" ? "" : chosen;
-  if (auto const cache = variable("XDG_CACHE_HOME"); !cache.empty()) return std::filesystem::path(cache) / "asterflow";
-  if (auto const home = variable("HOME"); !home.empty()) return std::filesystem::path(home) / ".cache" / "asterflow";
-  return {};
 }
 
 std::filesystem::path file_of(OperatorKey const& key) {

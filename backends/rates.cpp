@@ -1,0 +1,139 @@
+#include "backends/rates.hpp"
+
+#include "backends/backend.hpp"
+#include "backends/fast_kernel.hpp"
+#include "backends/fast_plan.hpp"
+#include "backends/rates_file.hpp"
+#include "base/random.hpp"
+#include "base/timer.hpp"
+
+#include <Kokkos_Core.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace asterflow {
+namespace {
+
+// At these digits, linear between (direct sums are in float up to six). A pressure is taken for as dear as its flow.
+constexpr std::array knots{3.0, 6.0, 7.0, 12.0};
+struct KernelRates {
+  std::string_view kernel;
+  std::array<double, 4> pair, plan;
+};
+constexpr std::array built_in{
+    KernelRates{"stokeslet", {0.245, 0.28, 0.52, 0.54}, {0.92, 0.92, 1.2, 1.35}},
+    KernelRates{"stresslet", {0.28, 0.315, 0.60, 0.61}, {1.1, 1.1, 1.35, 1.4}},
+    KernelRates{"rotlet", {0.23, 0.27, 0.50, 0.51}, {0.85, 0.85, 1.0, 1.2}}};
+
+constexpr bool is_host =
+    Kokkos::SpaceAccessibility<Kokkos::HostSpace, Kokkos::DefaultExecutionSpace::memory_space>::accessible;
+
+// Near the number where both sums cost the same, or enough of them to occupy a device.
+constexpr long n_direct = is_host ? 3000 : 60000, n_fast = is_host ? 4000 : 200000;
+
+constexpr double enough = 0.2;  // seconds of repetitions, of which the best count
+constexpr int fewest = 2, most = 9;
+
+Vec3d random_vector(long i, int stream) {
+  auto const number = [&](int c) { return uniform_random(5, i, stream, c) - 0.5; };
+  return {number(0), number(1), number(2)};
+}
+
+PointArray uniform(long n) {
+  PointArray x(n);
+  for (long i = 0; i < n; ++i) x[i] = random_vector(i, 0);
+  return x;
+}
+
+// Points on 200 radial lines of lengths 0.4 to 1 that begin 0.4 from the centre.
+PointArray aster(long n) {
+  constexpr long n_line = 200;
+  PointArray x(n);
+  for (long i = 0; i < n; ++i) {
+    double const length = 0.4 + 0.6 * uniform_random(5, i % n_line, 3, 0);
+    double const place = static_cast<double>(i / n_line * n_line) / static_cast<double>(n);
+    x[i] = (0.4 + length * place) * normalized(random_vector(i % n_line, 4));
+  }
+  return x;
+}
+
+// A sum over one cloud, to be repeated.
+class Trial {
+ public:
+  Trial(std::unique_ptr<Evaluator> evaluator, PointArray points, bool has_normals)
+      : evaluator_(std::move(evaluator)), points_(std::move(points)), strengths_(points_.size()), velocity_(points_.size()) {
+    PointArray normals(has_normals ? points_.size() : 0);
+    for (std::size_t i = 0; i < points_.size(); ++i) strengths_[i] = random_vector(static_cast<long>(i), 1);
+    for (std::size_t i = 0; i < normals.size(); ++i) normals[i] = normalized(random_vector(static_cast<long>(i), 2));
+    evaluator_->set_points(points_, points_, normals);
+    evaluator_->add_velocity(strengths_, velocity_);  // takes its memory
+  }
+
+  // Seconds now.
+  double repeat() {
+    Timer const timer;
+    evaluator_->add_velocity(strengths_, velocity_);
+    double const seconds = timer.seconds();
+    best_ = std::min(best_, seconds);
+    return seconds;
+  }
+  double nanoseconds() const { return 1e9 * best_; }
+  ConstPoints points() const { return points_; }
+
+ private:
+  std::unique_ptr<Evaluator> evaluator_;
+  PointArray points_, strengths_, velocity_;
+  double best_ = 1e300;
+};
+
+double plan_cost(std::string_view kernel, double accuracy, ConstPoints points) {
+  return best_plan(points, points, fast_parameters(kernel, accuracy), n_component(fast_kernel(kernel))).cost;
+}
+
+}  // namespace
+
+double predicted_fast(double plan_cost, double n) {
+  constexpr double point = 150.0;  // ns: sorting and checking
+  return plan_cost + point * n;
+}
+
+SumRates built_in_rates(std::string_view kernel, double accuracy) {
+  double const digits = std::clamp(-std::log10(accuracy), knots.front(), knots.back());
+  int const i = digits < knots[1] ? 0 : digits < knots[2] ? 1 : 2;
+  double const place = (digits - knots[i]) / (knots[i + 1] - knots[i]);
+  auto const at = [&](std::array<double, 4> const& row) { return row[i] + place * (row[i + 1] - row[i]); };
+  for (KernelRates const& rates : built_in)
+    if (kernel.starts_with(rates.kernel)) return {at(rates.pair), at(rates.plan)};
+  return {at(built_in[0].pair), at(built_in[0].plan)};
+}
+
+// Direct and fast sums in turn, so that what else the machine does meets all alike.
+SumRates measured_rates(std::string_view kernel, double accuracy) {
+  bool const has_normals = has_normal(fast_kernel(kernel));
+  EvaluatorOptions const options{.accuracy = accuracy};
+  Trial direct(make_direct(kernel, options), uniform(n_direct), has_normals);
+  std::array<Trial, 2> fast{Trial(make_fast(kernel, options), uniform(n_fast), has_normals),
+                            Trial(make_fast(kernel, options), aster(n_fast), has_normals)};
+  double spent = 0.0;
+  for (int i = 0; i < most && (i < fewest || spent < enough); ++i) {
+    spent += direct.repeat();
+    for (Trial& trial : fast) spent += trial.repeat();
+  }
+  double plan = 1.0;
+  for (Trial const& trial : fast)
+    plan *= trial.nanoseconds() / predicted_fast(plan_cost(kernel, accuracy, trial.points()), static_cast<double>(n_fast));
+  return {direct.nanoseconds() / (static_cast<double>(n_direct) * n_direct), std::sqrt(plan)};
+}
+
+SumRates sum_rates(std::string_view kernel, double accuracy) {
+  int const digits = std::clamp(static_cast<int>(std::lround(-std::log10(accuracy))), 3, 12);
+  std::string const key = rates_key(kernel, digits);
+  if (auto const stored = read_rates(key)) return *stored;
+  if (!can_store_rates()) return built_in_rates(kernel, accuracy);
+  write_rates(key, measured_rates(kernel, std::pow(10.0, -digits)));
+  return read_rates(key).value_or(built_in_rates(kernel, accuracy));
+}
+
+}  // namespace asterflow

@@ -1,0 +1,64 @@
+#include "backends/rates.hpp"
+
+#include "backends/evaluator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+#include <unistd.h>
+
+using namespace asterflow;
+
+namespace {
+
+// A cache folder of this test's own.
+class Rates : public testing::Test {
+ protected:
+  Rates() : folder_(std::filesystem::temp_directory_path() / ("asterflow-rates-" + std::to_string(getpid()))) {
+    setenv("ASTERFLOW_CACHE", folder_.c_str(), 1);
+  }
+  ~Rates() override {
+    std::filesystem::remove_all(folder_);
+    setenv("ASTERFLOW_CACHE", "off", 1);
+  }
+  std::filesystem::path only_file() const { return std::filesystem::directory_iterator(folder_)->path(); }
+  static bool are_equal(SumRates const& a, SumRates const& b) { return a.pair == b.pair && a.plan == b.plan; }
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace
+
+TEST_F(Rates, are_measured_once_and_the_same_ever_after) {
+  SumRates const first = sum_rates("rotlet", 1e-3);
+  // Any machine: a pair takes 1 ps to 1 us, and a plan's prediction is right within a factor 1000.
+  EXPECT_GT(first.pair, 1e-3);
+  EXPECT_LT(first.pair, 1e3);
+  EXPECT_GT(first.plan, 1e-3);
+  EXPECT_LT(first.plan, 1e3);
+  EXPECT_TRUE(are_equal(sum_rates("rotlet", 1e-3), first));
+  EXPECT_TRUE(are_equal(sum_rates("rotlet", 2e-3), first));  // to whole digits
+}
+
+TEST_F(Rates, are_measured_again_where_the_file_is_damaged) {
+  sum_rates("rotlet", 1e-3);
+  auto const file = only_file();
+  std::ofstream(file, std::ios::app) << "0x1p-1";
+  SumRates const second = sum_rates("rotlet", 1e-3);
+  EXPECT_EQ(only_file(), file);
+  EXPECT_TRUE(are_equal(sum_rates("rotlet", 1e-3), second));
+}
+
+TEST_F(Rates, are_built_in_where_nothing_can_be_stored) {
+  std::ofstream(folder_.string()) << "a file where a folder should be";
+  EXPECT_TRUE(are_equal(sum_rates("rotlet", 1e-3), built_in_rates("rotlet", 1e-3)));
+  setenv("ASTERFLOW_CACHE", "off", 1);
+  EXPECT_TRUE(are_equal(sum_rates("rotlet", 1e-3), built_in_rates("rotlet", 1e-3)));
+}
+
+TEST_F(Rates, built_in_are_those_of_a_flow_for_its_pressure) {
+  EXPECT_TRUE(are_equal(built_in_rates("stresslet_pressure", 1e-7), built_in_rates("stresslet", 1e-7)));
+}
