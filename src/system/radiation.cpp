@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "base/timer.hpp"
 #include "kernels/stokeslet.hpp"
+#include "system/own_sums.hpp"
 
 #include <Eigen/LU>
 #include <numeric>
@@ -14,6 +15,7 @@ namespace asterflow {
 namespace {
 
 constexpr double rough_accuracy = 1e-3;
+constexpr double single_precision = 1e-5;  // from here on floats do
 
 PointArray to_body_frame(RigidPose const& pose, ConstPoints points) {
   PointArray local(points.size());
@@ -145,19 +147,14 @@ void Radiation::add_fibers(ConstPoints force_density, Exchange kind, Points rece
   bool const is_rough = kind == Exchange::rough && rough_stokeslets_;
   (is_rough ? rough_stokeslets_ : stokeslets_)->add_velocity(strengths_, received);
   for (WallImages const& images : images_) {
-    if (is_rough)
+    if (is_rough || options_.accuracy >= single_precision)
       images.add_velocity<float>(strengths_, nodes_, received);
     else
       images.add_velocity<double>(strengths_, nodes_, received);
     images.add_own_resolution(strengths_, nodes_, received);
   }
   close_nodes_.add_correction(strengths_, received);
-  parallel_for("Radiation::own_flow", static_cast<long>(first_fiber_node_.size()) - 1, [&](long fiber) {
-    std::size_t const begin = first_fiber_node_[fiber], end = first_fiber_node_[fiber + 1];
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t j = begin; j < end; ++j)
-        received[i] -= Stokeslet::velocity(nodes_[i] - nodes_[j], strengths_[j]);
-  });
+  subtract_own_sums(ConstPoints(nodes_).first(n_fiber_nodes_), first_fiber_node_, strengths_, received);
 }
 
 void Radiation::add_bodies_to_each_other(std::vector<Vector6> const& motions, ConstPoints incident, Exchange kind,

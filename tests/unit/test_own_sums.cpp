@@ -1,0 +1,25 @@
+#include "system/own_sums.hpp"
+
+#include "kernels/stokeslet.hpp"
+
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace asterflow;
+
+TEST(OwnSums, TakesOutTheSumOverTheNodesOfTheSameFiber) {
+  std::vector<std::size_t> const first{0, 5, 5, 24};  // below a vector register, none, above
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  PointArray positions(24), strengths(24), velocity(24);
+  for (auto* points : {&positions, &strengths, &velocity})
+    for (Vec3d& p : *points) p = {number(random), number(random), number(random)};
+  positions[8] = positions[7];  // a node on another feels nothing of it
+  PointArray expected = velocity;
+  for (std::size_t fiber = 0; fiber + 1 < first.size(); ++fiber)
+    for (std::size_t i = first[fiber]; i < first[fiber + 1]; ++i)
+      for (std::size_t j = first[fiber]; j < first[fiber + 1]; ++j)
+        expected[i] -= Stokeslet::velocity(positions[i] - positions[j], strengths[j]);
+  subtract_own_sums(positions, first, strengths, velocity);
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_LT(norm(velocity[i] - expected[i]), 1e-14);
+}
