@@ -13,7 +13,7 @@ Vec3d FiberResponse::displacement(int i, Vec3d u, Vec3d force) const {
 }
 
 Vec3d FiberResponse::relative_motion(int i, Vector6 const& q) const {
-  Vec3d const motion = body_motion(q, nodes_[i]);
+  Vec3d const motion = carried(q).at(nodes_[i]);
   if (!step_.node_loads[i].is_internal) return motion;
   BodyMotionMap const& body = *step_.body;
   Vec3d const turn = to_vec3(body.turn_per_angular_velocity * q.tail<3>());
@@ -39,7 +39,7 @@ Vec3d FiberResponse::node_force(int i, Vec3d u, Vector6 const& q, Vec3d total) c
   Vec3d moved = displacement(i, u - velocity_[i], total);
   if (load.is_internal) {
     Vector6 const change = q - predicted_motion();
-    moved += relative_motion(i, change) - body_motion(change, nodes_[i]);
+    moved += relative_motion(i, change) - carried(change).at(nodes_[i]);
   }
   return load.force - load.stiffness * moved;
 }
@@ -52,7 +52,7 @@ bool FiberResponse::has_tip_spring() const { return !step_.tip.stiffness.isZero(
 // What the spring at the plus end does to the body when the fiber responds.
 void FiberResponse::add_spring_load(Unknowns response, Vector6 const& q, Vector6& load) const {
   lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(response);
-  Vec3d const tip = to_vec3(tip_motion_ * response) + body_motion(q, plus_end_);
+  Vec3d const tip = to_vec3(tip_motion_ * response) + carried(q).at(plus_end_);
   add_body_load(plus_end_, -(step_.tip.stiffness * tip), load);
 }
 
@@ -62,11 +62,13 @@ Vec3d FiberResponse::drag(int i, Vec3d velocity) const {
 
 Vec3d FiberResponse::applied(int i) const { return step_.load.external + step_.load.motor * tangents_[i]; }
 
-Vec3d FiberResponse::body_motion(Vector6 const& q, Vec3d point) const {
+FiberResponse::Carried FiberResponse::carried(Vector6 const& q) const {
+  if (!step_.body) return {};
   BodyMotionMap const& body = *step_.body;
+  Vec3d const shift = body.displacement_per_velocity * to_vec3(q.head<3>());
   Vec3d const turn = to_vec3(body.turn_per_angular_velocity * q.tail<3>());
-  Vec3d const held = step_.minus_end == MinusEnd::clamped ? point : minus_end_;
-  return body.displacement_per_velocity * to_vec3(q.head<3>()) + cross(turn, held - body.predicted.position);
+  if (step_.minus_end == MinusEnd::clamped) return {shift - cross(turn, body.predicted.position), turn};
+  return {shift + cross(turn, minus_end_ - body.predicted.position), {}};
 }
 
 Vector6 FiberResponse::predicted_motion() const {
@@ -78,26 +80,22 @@ void FiberResponse::add_body_load(Vec3d point, Vec3d force, Vector6& load) const
   load.tail<3>() += to_eigen(cross(point - step_.body->predicted.position, force));
 }
 
-// f += (a0/dt) ((1/w) reduced_drag^T reduced + drag(body motion)).
-void FiberResponse::respond(Eigen::Ref<Eigen::VectorXd const> reduced, Vector6 const& q, Points f) const {
-  int const n = step_.basis->n_node;
-  std::array<Vec3d, max_fiber_nodes> part;
-  flat(Points(part.data(), n)).noalias() = reduced_.leftCols(3 * n).transpose() * reduced;
-  for (int i = 0; i < n; ++i) {
-    f[i] += (rate_ / weights_[i]) * part[i];
-    if (step_.body) f[i] += rate_ * drag(i, body_motion(q, nodes_[i]));
-  }
+// f = (a0/dt) (1/w) reduced_drag^T reduced
+void FiberResponse::respond(Eigen::Ref<Eigen::VectorXd const> reduced, Points f) const {
+  flat(f).noalias() = reduced_.leftCols(static_cast<Eigen::Index>(3 * f.size())).transpose() * reduced;
+  for (std::size_t i = 0; i < f.size(); ++i) f[i] *= rate_ / weights_[static_cast<Eigen::Index>(i)];
 }
 
 void FiberResponse::add_linear(ConstPoints u, Vector6 const& q, Points f, Vector6* load) const {
   int const n = step_.basis->n_node;
-  std::array<Vec3d, max_fiber_nodes> change{};
+  std::array<Vec3d, max_fiber_nodes> change;
   Unknowns reduced(n_unknown_);
   reduced.noalias() = reduced_.leftCols(3 * n) * flat(u);
   if (step_.body) reduced.noalias() -= reduced_.rightCols<6>() * q;
-  respond(reduced, q, Points(change.data(), n));
+  respond(reduced, Points(change.data(), n));
+  Carried const body = carried(q);
   for (int i = 0; i < n; ++i) {
-    change[i] -= drag(i, u[i]);
+    change[i] += drag(i, rate_ * body.at(nodes_[i]) - u[i]);
     f[i] += change[i];
   }
   if (!step_.body || !load) return;
@@ -115,12 +113,13 @@ void FiberResponse::add_load(ConstPoints u, Vector6& load) const {
 void FiberResponse::add_affine(Points f, Vector6& load) const {
   int const n = step_.basis->n_node;
   Vector6 const q = -predicted_motion();
-  std::array<Vec3d, max_fiber_nodes> total{};
+  std::array<Vec3d, max_fiber_nodes> total;
   Unknowns reduced = reduced_.col(3 * n);
   if (step_.body) reduced.noalias() -= reduced_.rightCols<6>() * q;
-  respond(reduced, q, Points(total.data(), n));
+  respond(reduced, Points(total.data(), n));
+  Carried const body = carried(q);
   for (int i = 0; i < n; ++i) {
-    total[i] += drag(i, velocity_[i]);
+    total[i] += drag(i, rate_ * body.at(nodes_[i]) + velocity_[i]);
     f[i] += total[i] - step_.load.motor * tangents_[i];
     if (!step_.body) continue;
     add_body_load(nodes_[i], weights_[i] * (applied(i) - total[i]), load);
@@ -151,7 +150,7 @@ FiberResponse::Unknowns FiberResponse::unknowns(ConstPoints u, Vector6 const& q)
 
 Vec3d FiberResponse::tip_position(ConstPoints u, Vector6 const& q) const {
   Vec3d tip = plus_end_ + to_vec3(tip_motion_ * unknowns(u, q));
-  if (step_.body) tip += body_motion(q - predicted_motion(), plus_end_);
+  if (step_.body) tip += carried(q - predicted_motion()).at(plus_end_);
   return tip;
 }
 

@@ -96,10 +96,15 @@ class FiberResponse {
   Vec3d node_force(int i, Vec3d u, Vector6 const& q, Vec3d total) const;  // of the node's load, pN/um
   Vec3d drag(int i, Vec3d velocity) const;                 // (1/c) (I - t t / 2) velocity
   Vec3d applied(int i) const;                              // external force and motors, pN/um
-  Vec3d body_motion(Vector6 const& q, Vec3d point) const;  // change of the predicted point by the body's motion, um
+  // Change of the predicted points of the fiber by the body's motion, um.
+  struct Carried {
+    Vec3d shift, turn;
+    Vec3d at(Vec3d point) const { return shift + cross(turn, point); }
+  };
+  Carried carried(Vector6 const& q) const;
   Vector6 predicted_motion() const;
   void add_body_load(Vec3d point, Vec3d force, Vector6& load) const;
-  void respond(Eigen::Ref<Eigen::VectorXd const> reduced, Vector6 const& q, Points f) const;
+  void respond(Eigen::Ref<Eigen::VectorXd const> reduced, Points f) const;
   Unknowns unknowns(ConstPoints u, Vector6 const& q) const;
   Vec3d tip_position(ConstPoints u, Vector6 const& q) const;  // um, at the new time level
 

@@ -212,10 +212,10 @@ void FiberResponse::set_body_columns(Eigen::Ref<Eigen::MatrixXd const> unknown_m
   if (!step_.body) return;
   Map motions = scratch<2>(3 * n, 6);
   for (int k = 0; k < 6; ++k) {
-    Vector6 const q = Vector6::Unit(k);
-    for (int i = 0; i < n; ++i) motions.col(k).segment<3>(3 * i) = to_eigen(body_motion(q, nodes_[i]));
+    Carried const body = carried(Vector6::Unit(k));
+    for (int i = 0; i < n; ++i) motions.col(k).segment<3>(3 * i) = to_eigen(body.at(nodes_[i]));
     if (has_tip_spring())
-      columns.col(k) = tip_motion_.transpose() * (step_.tip.stiffness * to_eigen(body_motion(q, plus_end_)));
+      columns.col(k) = tip_motion_.transpose() * (step_.tip.stiffness * to_eigen(body.at(plus_end_)));
   }
   columns.noalias() += rate_ * (reduced_.leftCols(3 * n) * motions);
   for (std::size_t i = 0; i < step_.node_loads.size(); ++i) {
@@ -247,9 +247,10 @@ void FiberResponse::set_body_resistance() {
   part.noalias() = reduced_.leftCols(3 * n).transpose() * reduced_.rightCols<6>();
   for (int k = 0; k < 6; ++k) {
     Vector6 const q = Vector6::Unit(k);
+    Carried const body = carried(q);
     Vector6 load = Vector6::Zero();
     for (int i = 0; i < n; ++i) {
-      Vec3d const drag_work = weights_[i] * drag(i, body_motion(q, nodes_[i]));
+      Vec3d const drag_work = weights_[i] * drag(i, body.at(nodes_[i]));
       Vec3d const force = rate_ * (drag_work - to_vec3(part.col(k).segment<3>(3 * i)));
       add_body_load(nodes_[i], -force, load);
       add_node_load(i, {}, (1.0 / weights_[i]) * force, load);
