@@ -16,6 +16,7 @@ using Eigen::MatrixXf;
 using Eigen::VectorXd;
 
 constexpr Index block_rows = 2048;
+constexpr int solves_per_lesson = 3;
 
 // body(block, first row, rows) over blocks of rows: the same blocks for any number of threads.
 template <class Body>
@@ -89,8 +90,8 @@ void Recycling::precondition(Vector r) const {
 void Recycling::learn(Directions const& w, Directions const& a_w, double cost) {
   if (size() == 0) cost_without_ = cost;
   if (size() > 0 && cost > 0.9 * cost_without_)
-    restore({}, {}, cost_without_);
-  else
+    restore({}, {}, cost_without_, 0);
+  else if (size() < capacity_ || ++solves_when_full_ % solves_per_lesson == 0)
     learn(w, a_w);
 }
 

@@ -27,24 +27,28 @@ class Recycling {
   // span(U, w) with the largest |log(|A d| / |d|)|.
   void learn(Directions const& w, Directions const& a_w);
 
-  // After a solve: its candidates as in learn, and its cost in iterations per digit gained. What is remembered grows old as A
-  // changes: when it saves less than a tenth of what the last solve without it took, all is forgotten.
+  // After a solve: its candidates as in learn, and its cost in iterations per digit gained. Once full, the memory learns from
+  // every third solve: a lesson costs as much as an iteration. What is remembered grows old as A changes: when it saves
+  // less than a tenth of what the last solve without it took, all is forgotten.
   void learn(Directions const& w, Directions const& a_w, double cost);
 
-  // U - C, C and the cost of the last solve without them: all that a restart needs.
+  // U - C, C, the cost of the last solve without them and the solves since the memory was full: all that a restart needs.
   Directions const& changes() const { return changes_; }
   Directions const& images() const { return images_; }
   double cost_without() const { return cost_without_; }
-  void restore(Directions changes, Directions images, double cost_without) {
+  int solves_when_full() const { return solves_when_full_; }
+  void restore(Directions changes, Directions images, double cost_without, int solves_when_full) {
     changes_ = std::move(changes);
     images_ = std::move(images);
     cost_without_ = cost_without;
+    solves_when_full_ = solves_when_full;
   }
 
  private:
   int capacity_;
   Directions changes_, images_;  // U - C and C
   double cost_without_ = 0.0;
+  int solves_when_full_ = 0;
 };
 
 }  // namespace asterflow

@@ -141,7 +141,7 @@ std::vector<NamedArray> Simulation::restart() const {
           NamedArray::of("flow/incident_before", before_.incident, "um/s"),
           NamedArray::of("flow/force_density", last_.force_density, "pN/um"),
           directions("solver/changes", memory_.changes()), directions("solver/images", memory_.images()),
-          numbers("solver/cost", {memory_.cost_without()})});
+          numbers("solver/memory", {memory_.cost_without(), double(memory_.solves_when_full())})});
   return arrays;
 }
 
@@ -162,8 +162,9 @@ void Simulation::restore(double time, std::vector<NamedArray> const& arrays) {
   last_.incident = find_points(arrays, "flow/incident");
   before_.incident = find_points(arrays, "flow/incident_before");
   last_.force_density = find_points(arrays, "flow/force_density");
-  memory_.restore(find_directions(arrays, "solver/changes"), find_directions(arrays, "solver/images"),
-                  find(arrays, "solver/cost").at(0));
+  auto const& cost = find(arrays, "solver/memory");
+  memory_.restore(find_directions(arrays, "solver/changes"), find_directions(arrays, "solver/images"), cost.at(0),
+                  static_cast<int>(cost.at(1)));
 }
 
 }  // namespace asterflow
