@@ -13,7 +13,8 @@ namespace asterflow {
 namespace {
 
 using Eigen::MatrixXd;
-constexpr int highest_order = 48;  // 3 GB for two surfaces
+constexpr int highest_order = 48;         // 3 GB for two surfaces
+constexpr int highest_order_alone = 192;  // of one axisymmetric body: 1 GB
 constexpr int most_refinements = 3;
 
 // Boundary velocity of a unit motion of one body: translation or rotation about its position along laboratory axis c.
@@ -87,6 +88,45 @@ int refined_order(double error, int order, double accuracy) {
   return std::clamp(static_cast<int>(std::ceil(1.1 * std::log(30.0 * accuracy) / rate)), order + 4, 2 * order);
 }
 
+// Loads of all bodies, and those with half the order.
+struct Loads {
+  MatrixXd fine, rough;
+  int iterations = 0, rough_order = 0;
+};
+
+// The loads at the first order, or at a higher one that meets the accuracy; loads_at(order) solves.
+template <class LoadsAt>
+Resistance refine(std::vector<PlacedSurface> const& bodies, ResistanceOptions const& options, int first_order,
+                  int highest_order, LoadsAt const& loads_at) {
+  bool const is_chosen = options.order > 0;
+  Resistance result;
+  result.order = is_chosen ? options.order : std::min(highest_order, first_order);
+  for (int trial = 0;; ++trial) {
+    Loads const loads = loads_at(result.order);
+    result.iterations = std::max(result.iterations, loads.iterations);
+    double const asymmetry = difference(bodies, loads.fine, loads.fine.transpose());
+    double const change = difference(bodies, loads.fine, loads.rough);
+    result.error = std::max(asymmetry, error_of_fine(change, loads.rough_order, result.order));
+    result.resistance = options.viscosity * 0.5 * (loads.fine + loads.fine.transpose());
+    if (is_chosen || result.error <= options.accuracy || result.order == highest_order || trial == most_refinements) break;
+    result.order = std::min(highest_order, refined_order(result.error, result.order, options.accuracy));
+  }
+  if (!(result.error < 1e-2))
+    throw NumericalError(fmt::format("resistance problem is not resolved by order {}: error {:.1e}", result.order, result.error));
+  result.mobility = result.resistance.inverse();
+  return result;
+}
+
+// The equation of one axisymmetric body alone is inverted mode by mode.
+Loads loads_alone(std::vector<PlacedSurface> const& body, CloseSpots const& spots, int order, double accuracy) {
+  auto const at = [&](int p) {
+    BoundarySystem const system(body, spots, p, accuracy);
+    return loads_of_motions(body, system,
+                            [&](ConstPoints right, Points density) { system.precondition(right, density); });
+  };
+  return {at(order), at(coarse_order(order)), 0, coarse_order(order)};
+}
+
 }  // namespace
 
 Resistance solve_resistance(std::vector<PlacedSurface> const& bodies, std::optional<PlacedSurface> const& periphery,
@@ -97,26 +137,22 @@ Resistance solve_resistance(std::vector<PlacedSurface> const& bodies, std::optio
     surfaces.back().encloses = true;
   }
   CloseSpots const spots = find_close_spots(surfaces);
-  bool const is_chosen = options.order > 0;
-  Resistance result;
-  result.order = is_chosen ? options.order : std::min(highest_order, order_for(surfaces, spots, options.accuracy));
-  BoundarySystem const coarse(surfaces, spots, coarse_order(result.order), options.accuracy);
-  for (int trial = 0;; ++trial) {
-    BoundarySystem const fine(surfaces, spots, result.order, options.accuracy);
-    CoarseCorrection const correction(fine, coarse);
-    MatrixXd const rough = loads_of_motions(
-        bodies, coarse, [&](ConstPoints right, Points density) { correction.solve_coarse(right, density); });
-    MatrixXd const loads = solve_fine(bodies, fine, correction, options.accuracy, result.iterations);
-    double const asymmetry = difference(bodies, loads, loads.transpose());
-    result.error = std::max(asymmetry, error_of_fine(difference(bodies, loads, rough), coarse.order(), fine.order()));
-    result.resistance = options.viscosity * 0.5 * (loads + loads.transpose());
-    if (is_chosen || result.error <= options.accuracy || result.order == highest_order || trial == most_refinements) break;
-    result.order = std::min(highest_order, refined_order(result.error, result.order, options.accuracy));
-  }
-  if (!(result.error < 1e-2))
-    throw NumericalError(fmt::format("resistance problem is not resolved by order {}: error {:.1e}", result.order, result.error));
-  result.mobility = result.resistance.inverse();
-  return result;
+  int const first_order = order_for(surfaces, spots, options.accuracy);
+  if (surfaces.size() == 1 && surfaces.front().shape->axisymmetric())
+    return refine(bodies, options, first_order, highest_order_alone,
+                  [&](int order) { return loads_alone(bodies, spots, order, options.accuracy); });
+  std::optional<BoundarySystem> coarse;  // of the first order
+  return refine(bodies, options, first_order, highest_order, [&](int order) {
+    if (!coarse) coarse.emplace(surfaces, spots, coarse_order(order), options.accuracy);
+    BoundarySystem const fine(surfaces, spots, order, options.accuracy);
+    CoarseCorrection const correction(fine, *coarse);
+    Loads loads;
+    loads.rough_order = coarse->order();
+    loads.rough = loads_of_motions(
+        bodies, *coarse, [&](ConstPoints right, Points density) { correction.solve_coarse(right, density); });
+    loads.fine = solve_fine(bodies, fine, correction, options.accuracy, loads.iterations);
+    return loads;
+  });
 }
 
 }  // namespace asterflow

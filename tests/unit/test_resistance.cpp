@@ -91,6 +91,15 @@ TEST(Resistance, spheroids_and_triaxial_ellipsoids_agree_with_oberbeck) {
   }
 }
 
+TEST(Resistance, needles_and_discs_alone_meet_the_accuracy_by_themselves) {
+  for (Vec3d const axes : {Vec3d{0.1, 0.1, 1}, Vec3d{2, 0.3, 2}}) {
+    Resistance const r = solve_resistance({ellipsoid(axes, {3, 1, -2})}, std::nullopt, {.viscosity = 0.4, .accuracy = 1e-4});
+    Eigen::VectorXd const exact = 0.4 * oberbeck(axes);
+    for (int i = 0; i < 6; ++i) EXPECT_NEAR(r.resistance(i, i) / exact[i], 1.0, 1e-4);
+    EXPECT_LT(r.error, 1e-4);
+  }
+}
+
 TEST(Resistance, two_spheres_agree_with_their_exact_series_down_to_a_hundredth_of_a_radius) {
   struct Case {
     double gap;
