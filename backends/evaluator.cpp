@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <sstream>
 
 namespace asterflow {
 namespace {
@@ -44,7 +45,7 @@ std::unique_ptr<Evaluator> make_evaluator(std::string_view kernel, EvaluatorOpti
   if (!with_kernel(kernel, [](auto) {}))
     throw SceneError("kernel: unknown \"" + std::string(kernel) + "\" (known: " + kernel_names() + ")");
   if (!(options.accuracy >= 1e-15 && options.accuracy <= 1e-1))
-    throw SceneError("accuracy: " + std::to_string(options.accuracy) + " is outside 1e-15 ... 1e-1");
+    throw SceneError((std::ostringstream() << "accuracy: " << options.accuracy << " is outside 1e-15 ... 1e-1").str());
   for (auto const& backend : backends)
     if (options.backend == backend.name && backend.is_available())
       return backend.make(kernel, options);
