@@ -13,6 +13,7 @@ Maker make_direct;  // the best of those below
 Maker make_direct_portable, make_direct_avx2, make_direct_avx512;
 Maker make_fast;  // the best of those below
 Maker make_fast_portable, make_fast_avx2, make_fast_avx512;
+Maker make_fast_device;  // in the default execution space
 Maker make_automatic;  // direct or fast
 
 // Whether this build and this machine can run the loops of an instruction set.

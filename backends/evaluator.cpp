@@ -28,6 +28,7 @@ constexpr std::array backends{
     Backend{"fast", make_fast, always},
     Backend{"fast-avx512", make_fast_avx512, has_avx512},
     Backend{"fast-avx2", make_fast_avx2, has_avx2},
+    Backend{"fast-device", make_fast_device, always},
     Backend{"fast-portable", make_fast_portable, always},
     Backend{"reference", make_reference, always},
 };

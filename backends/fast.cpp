@@ -6,9 +6,8 @@
 
 #include "backends/backend.hpp"
 #include "backends/blocks.hpp"
-#include "backends/fast_far.hpp"
 #include "backends/fast_kernel.hpp"
-#include "backends/fast_near.hpp"
+#include "backends/fast_parts.hpp"
 #include "backends/fast_plan.hpp"
 #include "base/error.hpp"
 
@@ -24,29 +23,13 @@ void require_finite(ConstPoints points, char const* what) {
                        " is not a finite number below 1e150");
 }
 
-template <class Real>
-FastLoops<Real> loops_of(FastInstructions instructions) {
-#ifdef ASTERFLOW_HAS_X86_SIMD
-  if (instructions == FastInstructions::avx512) return fast_loops_avx512<Real>();
-  if (instructions == FastInstructions::avx2) return fast_loops_avx2<Real>();
-#endif
-  (void)instructions;
-  return fast_loops_portable<Real>();
-}
-
-template <class Real>
 class FastSum final : public Evaluator {
  public:
   FastSum(std::string_view kernel, FastParameters const& parameters, FastInstructions instructions, std::string_view name)
-      : name_(name),
-        kernel_name_(kernel),
-        kernel_(fast_kernel(kernel)),
-        parameters_(parameters),
-        split_(parameters.split_shape),
-        loops_(loops_of<Real>(instructions)) {}
+      : name_(name), kernel_(kernel), parameters_(parameters), instructions_(instructions) {}
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
-    ASTERFLOW_REQUIRE(normals.size() == (has_normal(kernel_) ? sources.size() : 0));
+    ASTERFLOW_REQUIRE(normals.size() == (has_normal(fast_kernel(kernel_)) ? sources.size() : 0));
     require_finite(sources, "source");
     require_finite(targets, "target");
     require_finite(normals, "normal");
@@ -56,23 +39,25 @@ class FastSum final : public Evaluator {
     tree_.reset();
     if (n_source_ == 0 || n_target_ == 0) return;
     if (static_cast<long>(n_source_ + n_target_) > 2 * parameters_.capacity)
-      tree_ = std::make_unique<Octree>(sources, targets, best_plan(sources, targets, parameters_, n_component(kernel_)).octree);
+      tree_ = std::make_unique<Octree>(sources, targets, best_plan(sources, targets, parameters_, n_component(fast_kernel(kernel_))).octree);
     if (!tree_ || tree_->refined().empty()) {
-      direct_ = make_direct(kernel_name_, {.accuracy = parameters_.accuracy, .gradient = parameters_.gradient});
+      direct_ = make_direct(kernel_, {.accuracy = parameters_.accuracy, .gradient = parameters_.gradient});
       return direct_->set_points(sources, targets, normals);
     }
-    make_parts();
-    near_->set_points(*tree_, sources, targets);
-    normals_.resize(normals.size());
+    PointArray sorted(normals.size());
     for_blocks("Fast::set_points", static_cast<long>(normals.size()),
-               [&](long i) { normals_[i] = normals[tree_->source_order()[i]]; });
-    far_->set_points(*tree_);
+               [&](long i) { sorted[i] = normals[tree_->source_order()[i]]; });
+    if (!parts_) {
+      auto* const make = instructions_ == FastInstructions::device ? make_device_parts : make_host_parts;
+      parts_ = make(kernel_, parameters_, instructions_);
+    }
+    parts_->set_points(*tree_, sources, targets, sorted);
   }
 
   void add_velocity(ConstPoints strengths, Points velocity) override {
     if (direct_) return direct_->add_velocity(strengths, velocity);
     ASTERFLOW_REQUIRE(velocity.size() == n_target_);
-    double const scale = evaluate(strengths, nullptr);
+    double const scale = evaluate(strengths, {});
     if (scale == 0.0) return;
     for_blocks("Fast::add_velocity", static_cast<long>(n_target_),
                [&](long i) { velocity[tree_->target_order()[i]] += scale * sum_[i]; });
@@ -82,7 +67,7 @@ class FastSum final : public Evaluator {
     ASTERFLOW_REQUIRE(parameters_.gradient && gradient.size() == 3 * n_target_);
     if (direct_) return direct_->add_gradient(strengths, gradient);
     PointArray slopes(3 * n_target_);
-    double const scale = evaluate(strengths, slopes.data()) / (tree_ ? tree_->side() : 1.0);
+    double const scale = evaluate(strengths, slopes) / (tree_ ? tree_->side() : 1.0);
     if (scale == 0.0) return;
     for_blocks("Fast::add_gradient", static_cast<long>(n_target_), [&](long i) {
       for (long d = 0; d < 3; ++d) gradient[3L * tree_->target_order()[i] + d] += scale * slopes[3 * i + d];
@@ -93,21 +78,13 @@ class FastSum final : public Evaluator {
   std::size_t memory() const override {
     if (direct_) return direct_->memory();
     if (!tree_) return 0;
-    return near_->memory() + far_->memory() + tree_->memory() + sizeof(Vec3d) * normals_.capacity() +
-           sizeof(Vec3d) * (sorted_.capacity() + sum_.capacity());
+    return parts_->memory() + tree_->memory() + sizeof(Vec3d) * (sorted_.capacity() + sum_.capacity());
   }
 
  private:
-  void make_parts() {
-    if (near_) return;
-    far_ = std::make_unique<FarField<Real>>(kernel_, loops_, parameters_, split_);
-    near_ = std::make_unique<NearField<Real>>(kernel_, loops_, split_.local_part(kernel_name_, parameters_.local_tolerance),
-                                              parameters_.refinement_steps);
-  }
-
   // Overwrites sum_ with the velocity divided by the number returned, which is 0 where there is nothing to sum.
-  // slopes [n_target, 3], its gradient in units of the root's side, unless null.
-  double evaluate(ConstPoints strengths, Vec3d* slopes) {
+  // slopes [n_target, 3], its gradient in units of the root's side, unless empty.
+  double evaluate(ConstPoints strengths, Points slopes) {
     ASTERFLOW_REQUIRE(strengths.size() == n_source_);
     require_finite(strengths, "strength");
     double largest = 0.0;
@@ -116,36 +93,28 @@ class FastSum final : public Evaluator {
     sorted_.resize(n_source_);
     for_blocks("Fast::sort", static_cast<long>(n_source_),
                [&](long i) { sorted_[i] = strengths[tree_->source_order()[i]] / largest; });
-    Vec3d const* const normals = normals_.empty() ? nullptr : normals_.data();
     sum_.assign(n_target_, Vec3d{});
-    near_->set_strengths(sorted_.data(), normals);
-    parallel_for("Fast::near", near_->n_items(), [&](long i) { near_->add(i, sum_.data(), slopes); });
-    far_->add(sorted_.data(), normals, sum_.data(), slopes);
-    return largest / std::pow(tree_->side(), decay(kernel_));
+    parts_->add(sorted_, sum_, slopes);
+    return largest / std::pow(tree_->side(), decay(fast_kernel(kernel_)));
   }
 
   std::string_view name_;
-  std::string kernel_name_;
-  FastKernel kernel_;
+  std::string kernel_;
   FastParameters parameters_;
-  KernelSplit split_;
-  FastLoops<Real> loops_;
-  std::unique_ptr<FarField<Real>> far_;  // both made for the first points that need them
-  std::unique_ptr<NearField<Real>> near_;
+  FastInstructions instructions_;
+  std::unique_ptr<FastParts> parts_;  // made for the first points that need them
 
   std::size_t n_source_ = 0, n_target_ = 0;
   std::unique_ptr<Evaluator> direct_;  // in place of everything else where the points are few
   std::unique_ptr<Octree> tree_;
-  PointArray normals_;        // in the order of the tree, as
-  PointArray sorted_, sum_;   // strengths and velocity of the last sum
+  PointArray sorted_, sum_;  // strengths and velocity of the last sum, in the order of the tree
 };
 
 }  // namespace
 
 std::unique_ptr<Evaluator> make_fast(std::string_view kernel, FastParameters const& parameters,
                                      FastInstructions instructions, std::string_view name) {
-  if (parameters.single) return std::make_unique<FastSum<float>>(kernel, parameters, instructions, name);
-  return std::make_unique<FastSum<double>>(kernel, parameters, instructions, name);
+  return std::make_unique<FastSum>(kernel, parameters, instructions, name);
 }
 
 }  // namespace asterflow

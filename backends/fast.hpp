@@ -6,7 +6,8 @@
 
 namespace asterflow {
 
-enum class FastInstructions { portable, avx2, avx512 };
+// Vector loops of the host, or Kokkos's default execution space.
+enum class FastInstructions { portable, avx2, avx512, device };
 
 // The error is what the parameters make it: nobody checks.
 std::unique_ptr<Evaluator> make_fast(std::string_view kernel, FastParameters const& parameters,

@@ -8,6 +8,8 @@
 #include "backends/fast.hpp"
 #include "base/error.hpp"
 
+#include <Kokkos_Core.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -19,6 +21,9 @@ constexpr double strictest = 1e-12;   // fast sums cannot do better
 constexpr std::size_t n_checked = 96;  // targets
 constexpr double tolerated = 1.0;      // estimated error over the one asked for
 constexpr double margin = 0.3;         // of the next accuracy, where one was missed
+
+constexpr bool default_space_is_host =
+    Kokkos::SpaceAccessibility<Kokkos::HostSpace, Kokkos::DefaultExecutionSpace::memory_space>::accessible;
 
 double square(ConstPoints points) {
   double sum = 0.0;
@@ -165,7 +170,12 @@ std::unique_ptr<Evaluator> make_fast_avx512(std::string_view kernel, EvaluatorOp
   return make<FastInstructions::avx512>(kernel, options, "fast-avx512");
 }
 
+std::unique_ptr<Evaluator> make_fast_device(std::string_view kernel, EvaluatorOptions const& options) {
+  return make<FastInstructions::device>(kernel, options, "fast-device");
+}
+
 std::unique_ptr<Evaluator> make_fast(std::string_view kernel, EvaluatorOptions const& options) {
+  if (!default_space_is_host) return make<FastInstructions::device>(kernel, options, "fast");
   if (has_avx512()) return make<FastInstructions::avx512>(kernel, options, "fast");
   if (has_avx2()) return make<FastInstructions::avx2>(kernel, options, "fast");
   return make<FastInstructions::portable>(kernel, options, "fast");

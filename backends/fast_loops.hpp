@@ -87,7 +87,7 @@ struct NearWork {
 
 // Which sources may lie within `reach` of a group of targets, all in normalised float coordinates.
 struct NearQuery {
-  static constexpr int max_target = 16;
+  static constexpr int max_target = 32;
   float const* sources[3];
   float low[3], high[3];  // box of the targets
   float targets[3][max_target];

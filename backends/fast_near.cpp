@@ -8,42 +8,16 @@
 #include "backends/fast_near_kernels.inl"
 
 #include <cmath>
-#include <numeric>
 
 namespace asterflow {
-namespace {
-
-// Below this distance the two-part float coordinates are not accurate enough.
-constexpr double close_distance = 1e-8;
-
-constexpr long list_span = 65536;  // sources one segment of a list can point to
-
-// Splits positions [first, last) at a multiple of `unit` near the middle of their longest extent until
-// every piece has at most `unit` points.
-void make_compact(PointArray const& points, std::uint32_t* first, std::uint32_t* last, long unit) {
-  long const n = last - first;
-  if (n <= unit) return;
-  Vec3d low = points[*first], high = low;
-  for (auto* i = first; i < last; ++i)
-    for (int d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], points[*i][d]);
-      high[d] = std::max(high[d], points[*i][d]);
-    }
-  Vec3d const e = high - low;
-  int const d = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
-  auto* const middle = first + ((n + unit - 1) / unit + 1) / 2 * unit;
-  std::nth_element(first, middle, last, [&](std::uint32_t a, std::uint32_t b) {
-    return points[a][d] != points[b][d] ? points[a][d] < points[b][d] : a < b;
-  });
-  make_compact(points, first, middle, unit);
-  make_compact(points, middle, last, unit);
-}
-
-}  // namespace
 
 template <class Real>
 NearField<Real>::NearField(FastKernel kernel, FastLoops<Real> const& loops, LocalPart const& local, int refinement_steps)
-    : kernel_(kernel), loops_(loops), local_(local), refinement_steps_(refinement_steps) {
+    : kernel_(kernel),
+      loops_(loops),
+      lists_(loops.lanes, split_coordinates, loops.list_near),
+      local_(local),
+      refinement_steps_(refinement_steps) {
   int const n = static_cast<int>(local_.a.size());
   int const terms = n <= 4 ? 4 : n <= 16 ? n + n % 2 : (n + 3) / 4 * 4;  // those the loops are compiled for
   ASTERFLOW_REQUIRE(terms <= NearLevel<Real>::max_terms);
@@ -53,11 +27,11 @@ NearField<Real>::NearField(FastKernel kernel, FastLoops<Real> const& loops, Loca
 }
 
 template <class Real>
-void NearField<Real>::make_levels(int n_level) {
+void NearField<Real>::make_levels() {
   levels_.clear();
   int const power = has_normal(kernel_) ? NearStresslet::powers : NearStokeslet::powers;
-  for (int level = 0; level < n_level; ++level) {
-    double const cutoff = std::ldexp(side_, -level);
+  for (int level = 0; level < lists_.n_level(); ++level) {
+    double const cutoff = std::ldexp(lists_.side(), -level);
     NearLevel<Real> l{};
     l.cutoff2 = static_cast<Real>(cutoff * cutoff);
     l.u_scale = static_cast<Real>(2.0 / (cutoff * cutoff));
@@ -71,170 +45,23 @@ void NearField<Real>::make_levels(int n_level) {
 
 template <class Real>
 void NearField<Real>::set_points(Octree& tree, ConstPoints sources, ConstPoints targets) {
-  auto const& leaves = tree.leaves();
-  int exponent = 0;
-  side_ = std::frexp(tree.side(), &exponent);
-  velocity_scale_ = std::pow(side_, decay(kernel_)) / (8.0 * M_PI);
-  make_levels(static_cast<int>(leaves.size()));
-  std::vector<std::pair<int, Box const*>> boxes;
-  for (std::size_t level = 0; level < leaves.size(); ++level)
-    for (Box const& box : leaves[level])
-      if (box.targets.size() > 0) boxes.emplace_back(static_cast<int>(level), &box);
-  leaves_.assign(boxes.size(), {});
-  parallel_for("NearField::set_points::order", static_cast<long>(boxes.size()), [&](long i) {
-    Range const range = boxes[i].second->targets;
-    std::vector<std::uint32_t> order(range.size());
-    std::iota(order.begin(), order.end(), static_cast<std::uint32_t>(range.begin));
-    make_compact(tree.targets(), order.data(), order.data() + order.size(), loops_.lanes);
-    tree.reorder_targets(range, order);
-  });
-  copy_points(tree, sources, targets);
-  for (auto& coordinates : filter_) coordinates.assign(sources.size() + NearQuery::max_target, 0.0f);
-  for_blocks("NearField::set_points::filter", static_cast<long>(sources.size()), [&](long i) {
-    for (int d = 0; d < 3; ++d) filter_[d][i] = static_cast<float>(tree.sources()[i][d]);
-  });
-  parallel_for("NearField::set_points::list", static_cast<long>(boxes.size()),
-               [&](long i) { leaves_[i] = list_sources(tree, boxes[i].first, *boxes[i].second); });
-  for (auto& coordinates : filter_) coordinates = {};
+  lists_.set_points(tree, sources, targets);
+  velocity_scale_ = std::pow(lists_.side(), decay(kernel_)) / (8.0 * M_PI);
+  make_levels();
+  copy_coordinates();
 }
 
-// The origin is moved only where the points are far from it, and then by a number with few bits.
 template <class Real>
-void NearField<Real>::copy_points(Octree const& tree, ConstPoints sources, ConstPoints targets) {
-  double const unit = tree.side() / side_;
-  Vec3d origin;
-  for (int d = 0; d < 3; ++d)
-    origin[d] = std::abs(tree.corner()[d]) < 4.0 * unit ? 0.0 : std::floor(tree.corner()[d] / unit) * unit;
-  sources_.resize(sources.size());
-  targets_.resize(targets.size());
-  records_.resize(sources_.size() * record_);
-  for_blocks("NearField::copy_points::targets", static_cast<long>(targets.size()), [&](long i) {
-    targets_[i] = (targets[tree.target_order()[i]] - origin) * (1.0 / unit);
-  });
-  for_blocks("NearField::copy_points::sources", static_cast<long>(sources.size()), [&](long i) {
-    sources_[i] = (sources[tree.source_order()[i]] - origin) * (1.0 / unit);
+void NearField<Real>::copy_coordinates() {
+  PointArray const& sources = lists_.sources();
+  records_.resize(sources.size() * record_);
+  for_blocks("NearField::copy_coordinates", static_cast<long>(sources.size()), [&](long i) {
     for (int d = 0; d < 3; ++d) {
-      Real const high = static_cast<Real>(sources_[i][d]);
+      Real const high = static_cast<Real>(sources[i][d]);
       records_[i * record_ + d] = high;
-      if constexpr (split_coordinates) records_[i * record_ + 3 + d] = static_cast<Real>(sources_[i][d] - high);
+      if constexpr (split_coordinates) records_[i * record_ + 3 + d] = static_cast<Real>(sources[i][d] - high);
     }
   });
-}
-
-template <class Real>
-bool NearField<Real>::is_close(long target, int n_target, std::uint32_t source) const {
-  for (long t = target; t < target + n_target; ++t) {
-    Vec3d const r = targets_[t] - sources_[source];
-    double const r2 = dot(r, r);
-    if (r2 > 0.0 && r2 < close_distance * close_distance) return true;
-  }
-  return false;
-}
-
-// Boxes of the target's own level hold only sources as fine or finer; coarser leaves are found around the
-// target's ancestors. By level and place, so that segments of lists can be joined.
-template <class Real>
-std::vector<typename NearField<Real>::Candidates> NearField<Real>::candidates(Octree const& tree, int level,
-                                                                              Box const& box) const {
-  std::vector<Candidates> found;
-  for (int l = level; l >= 0; --l) {
-    int const shift = level - l;
-    std::size_t const first = found.size();
-    for (int i = 0; i < 27; ++i) {
-      int const x = (box.place[0] >> shift) + i % 3 - 1, y = (box.place[1] >> shift) + i / 3 % 3 - 1,
-                z = (box.place[2] >> shift) + i / 9 - 1;
-      if (std::min({x, y, z}) < 0 || std::max({x, y, z}) >= 1 << l) continue;
-      Box const* near = Octree::find(tree.leaves()[l], x, y, z);
-      if (!near && l == level && l < static_cast<int>(tree.refined().size()))
-        near = Octree::find(tree.refined()[l], x, y, z);
-      if (!near) continue;
-      for (long begin = near->sources.begin; begin < near->sources.end; begin += list_span)
-        found.push_back({l, {begin, std::min(near->sources.end, begin + list_span)}});
-    }
-    std::sort(found.begin() + static_cast<long>(first), found.end(),
-              [](Candidates const& a, Candidates const& b) { return a.sources.begin < b.sources.begin; });
-  }
-  return found;
-}
-
-template <class Real>
-NearQuery NearField<Real>::query(PointArray const& targets, long first, int n) const {
-  NearQuery q;
-  q.n_target = n;
-  for (int d = 0; d < 3; ++d) {
-    q.sources[d] = filter_[d].data();
-    q.low[d] = q.high[d] = static_cast<float>(targets[first][d]);
-    for (int i = 0; i < n; ++i) {
-      q.targets[d][i] = static_cast<float>(targets[first + i][d]);
-      q.low[d] = std::min(q.low[d], q.targets[d][i]);
-      q.high[d] = std::max(q.high[d], q.targets[d][i]);
-    }
-  }
-  return q;
-}
-
-template <class Real>
-void NearField<Real>::append_near(NearQuery const& query, NearGroup const& group, Candidates const& from,
-                                  std::size_t first_segment, Leaf& leaf) const {
-  bool const joins = leaf.segments.size() > first_segment && leaf.segments.back().level == from.level &&
-                     from.sources.end - leaf.segments.back().base <= list_span;
-  long const base = joins ? leaf.segments.back().base : from.sources.begin;
-  static thread_local std::vector<std::uint16_t> found;
-  found.resize(std::max(found.size(), static_cast<std::size_t>(from.sources.size()) + NearQuery::max_target));
-  long const n = loops_.list_near(query, from.sources.begin, from.sources.end, base, found.data());
-  std::size_t const before = leaf.list.size();
-  leaf.list.insert(leaf.list.end(), found.begin(), found.begin() + n);
-  if constexpr (split_coordinates) set_close_apart(query, group, from, static_cast<std::uint32_t>(base), before, leaf);
-  if (leaf.list.size() == before) return;
-  auto const end = static_cast<std::uint32_t>(leaf.list.size());
-  if (joins)
-    leaf.segments.back().end = end;
-  else
-    leaf.segments.push_back({static_cast<std::uint32_t>(base), end, from.level});
-}
-
-// Moves the sources that nearly touch a target from the list, from position `first` on, to leaf.close.
-template <class Real>
-void NearField<Real>::set_close_apart(NearQuery const& query, NearGroup const& group, Candidates const& from,
-                                      std::uint32_t base, std::size_t first, Leaf& leaf) const {
-  constexpr float slack = 1e-6f;  // rounding of normalised float coordinates
-  float low[3], high[3];
-  for (int d = 0; d < 3; ++d) low[d] = query.low[d] - slack, high[d] = query.high[d] + slack;
-  float const *const x = filter_[0].data() + base, *const y = filter_[1].data() + base, *const z = filter_[2].data() + base;
-  auto const is_apart = [&](std::uint16_t i) {
-    return x[i] < low[0] || x[i] > high[0] || y[i] < low[1] || y[i] > high[1] || z[i] < low[2] || z[i] > high[2] ||
-           !is_close(group.target, group.n_target, base + i);
-  };
-  auto const begin = leaf.list.begin() + static_cast<long>(first);
-  if (std::all_of(begin, leaf.list.end(), is_apart)) return;
-  auto const kept = std::stable_partition(begin, leaf.list.end(), is_apart);
-  for (auto place = kept; place != leaf.list.end(); ++place) leaf.close.push_back(base + *place);
-  leaf.close_levels.resize(leaf.close.size(), from.level);
-  leaf.list.erase(kept, leaf.list.end());
-}
-
-template <class Real>
-typename NearField<Real>::Leaf NearField<Real>::list_sources(Octree const& tree, int level, Box const& box) const {
-  constexpr double slack = 4e-7;  // rounding of normalised float coordinates
-  auto const near = candidates(tree, level, box);
-  Leaf leaf;
-  for (long t = box.targets.begin; t < box.targets.end; t += loops_.lanes) {
-    NearGroup group{t, static_cast<int>(std::min<long>(loops_.lanes, box.targets.end - t)), 0, 0};
-    NearQuery q = query(tree.targets(), t, group.n_target);
-    std::size_t const first_segment = leaf.segments.size();
-    for (auto const& from : near) {
-      q.reach = static_cast<float>(std::ldexp(1.0, -from.level) + slack);
-      append_near(q, group, from, first_segment, leaf);
-    }
-    group.segment_end = static_cast<std::uint32_t>(leaf.segments.size());
-    group.close_end = static_cast<std::uint32_t>(leaf.close.size());
-    leaf.groups.push_back(group);
-  }
-  ASTERFLOW_REQUIRE(leaf.list.size() < 0xffffffffu);
-  leaf.list.shrink_to_fit();
-  leaf.segments.shrink_to_fit();
-  leaf.groups.shrink_to_fit();
-  return leaf;
 }
 
 template <class Real>
@@ -242,7 +69,7 @@ void NearField<Real>::set_strengths(Vec3d const* strengths, Vec3d const* normals
   strengths_ = strengths;
   normals_ = normals;
   constexpr int offset = split_coordinates ? 6 : 3;
-  for_blocks("NearField::set_strengths", static_cast<long>(sources_.size()), [&](long i) {
+  for_blocks("NearField::set_strengths", static_cast<long>(lists_.sources().size()), [&](long i) {
     Real* const record = records_.data() + i * record_ + offset;
     for (int d = 0; d < 3; ++d) record[d] = static_cast<Real>(strengths[i][d]);
     if (normals)
@@ -272,13 +99,13 @@ void NearField<Real>::add_pair(int level, std::uint32_t source, Number const (&r
 // The sum over the sources that nearly touch a target, one pair at a time.
 template <class Real>
 template <class Kernel>
-void NearField<Real>::add_close(Leaf const& leaf, Vec3d* velocity, Vec3d* gradient) const {
+void NearField<Real>::add_close(NearLists::Leaf const& leaf, Vec3d* velocity, Vec3d* gradient) const {
   using D = Dual<double>;
   std::size_t k = 0;
   for (NearGroup const& group : leaf.groups)
     for (; k < group.close_end; ++k)
       for (long t = group.target; t < group.target + group.n_target; ++t) {
-        Vec3d const x = targets_[t] - sources_[leaf.close[k]];
+        Vec3d const x = lists_.targets()[t] - lists_.sources()[leaf.close[k]];
         double const r2 = dot(x, x), s = r2 > 0.0 ? 1.0 / std::sqrt(r2) : 0.0;
         Vec3<D> const r = differentiable(x);
         D const w = dot(r, r) * D(static_cast<double>(levels_[leaf.close_levels[k]].u_scale)) - D(1.0);
@@ -288,18 +115,18 @@ void NearField<Real>::add_close(Leaf const& leaf, Vec3d* velocity, Vec3d* gradie
         for (int d = 0; d < 3; ++d) {
           velocity[t][d] += velocity_scale_ * u[d].value;
           if (!gradient) continue;
-          for (int e = 0; e < 3; ++e) gradient[3 * t + d][e] += velocity_scale_ * side_ * u[d].slope[e];
+          for (int e = 0; e < 3; ++e) gradient[3 * t + d][e] += velocity_scale_ * lists_.side() * u[d].slope[e];
         }
       }
 }
 
 template <class Real>
 void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient) const {
-  Leaf const& leaf = leaves_[item];
+  NearLists::Leaf const& leaf = lists_.leaves()[item];
   NearWork<Real> const work{kernel_, static_cast<int>(local_.a.size()), refinement_steps_, levels_.data(),
-                            records_.data(), record_, &targets_.data()->x, leaf.groups.data(),
+                            records_.data(), record_, &lists_.targets().data()->x, leaf.groups.data(),
                             static_cast<long>(leaf.groups.size()), leaf.segments.data(), leaf.list.data(),
-                            velocity_scale_, velocity_scale_ * side_};
+                            velocity_scale_, velocity_scale_ * lists_.side()};
   loops_.add_near(work, &velocity->x, gradient ? &gradient->x : nullptr);
   if (leaf.close.empty()) return;
   if (kernel_ == FastKernel::stokeslet) return add_close<NearStokeslet>(leaf, velocity, gradient);
@@ -310,19 +137,8 @@ void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient) const {
 }
 
 template <class Real>
-double NearField<Real>::n_pairs() const {
-  double n = 0.0;
-  for (Leaf const& leaf : leaves_) n += static_cast<double>(leaf.list.size()) * loops_.lanes;
-  return n;
-}
-
-template <class Real>
 std::size_t NearField<Real>::memory() const {
-  std::size_t bytes = records_.capacity() * sizeof(Real) + leaves_.capacity() * sizeof(Leaf);
-  for (Leaf const& leaf : leaves_)
-    bytes += leaf.groups.capacity() * sizeof(NearGroup) + leaf.segments.capacity() * sizeof(NearSegment) +
-             leaf.list.capacity() * sizeof(std::uint16_t) + leaf.close.capacity() * 2 * sizeof(std::uint32_t);
-  return bytes + (sources_.capacity() + targets_.capacity()) * sizeof(Vec3d);
+  return records_.capacity() * sizeof(Real) + lists_.memory();
 }
 
 template class NearField<float>;

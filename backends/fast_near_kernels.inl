@@ -2,13 +2,15 @@
 // without 1 / 8 pi. a, b: the polynomials A, B; `inverse`: 1 / r; what lies outside the cutoff is left out by
 // the caller. `Number` is a number, a vector or a Dual of them; source: strength, then normal.
 
+#include <Kokkos_Macros.hpp>
+
 namespace asterflow {
 namespace {
 
 struct NearStokeslet {
   static constexpr int powers = 1;  // A scales as 1 / cutoff, B as 1 / cutoff^3
   template <class Number, class Inside, class Real>
-  static void add(Number const (&r)[3], Number const& inverse, Number const& a, Number const& b, Inside const& inside,
+  KOKKOS_INLINE_FUNCTION static void add(Number const (&r)[3], Number const& inverse, Number const& a, Number const& b, Inside const& inside,
                   Real const* f, Number (&u)[3]) {
     Number const first = inside(inverse - a);
     Number const second = inside(inverse * inverse * inverse - b);
@@ -20,7 +22,7 @@ struct NearStokeslet {
 struct NearRotlet {
   static constexpr int powers = 1;
   template <class Number, class Inside, class Real>
-  static void add(Number const (&r)[3], Number const& inverse, Number const&, Number const& b, Inside const& inside,
+  KOKKOS_INLINE_FUNCTION static void add(Number const (&r)[3], Number const& inverse, Number const&, Number const& b, Inside const& inside,
                   Real const* t, Number (&u)[3]) {
     Number const s = inside(inverse * inverse * inverse - b);
     u[0] += s * (r[2] * t[1] - r[1] * t[2]);
@@ -32,7 +34,7 @@ struct NearRotlet {
 struct NearStokesletPressure {
   static constexpr int powers = 1;
   template <class Number, class Inside, class Real>
-  static void add(Number const (&r)[3], Number const& inverse, Number const&, Number const& b, Inside const& inside,
+  KOKKOS_INLINE_FUNCTION static void add(Number const (&r)[3], Number const& inverse, Number const&, Number const& b, Inside const& inside,
                   Real const* f, Number (&p)[3]) {
     p[0] += inside((inverse * inverse * inverse - b) * 2.0f) * (r[0] * f[0] + r[1] * f[1] + r[2] * f[2]);
   }
@@ -41,7 +43,7 @@ struct NearStokesletPressure {
 struct NearStresslet {
   static constexpr int powers = 3;  // A scales as 1 / cutoff^3, B as 1 / cutoff^5
   template <class Number, class Inside, class Real>
-  static void add(Number const (&r)[3], Number const& inverse, Number const& a, Number const& b, Inside const& inside,
+  KOKKOS_INLINE_FUNCTION static void add(Number const (&r)[3], Number const& inverse, Number const& a, Number const& b, Inside const& inside,
                   Real const* q, Number (&u)[3]) {
     Real const* n = q + 3;
     Number const first = inside(-a);
@@ -58,7 +60,7 @@ struct NearStresslet {
 struct NearStressletPressure {
   static constexpr int powers = 3;
   template <class Number, class Inside, class Real>
-  static void add(Number const (&r)[3], Number const& inverse, Number const& a, Number const& b, Inside const& inside,
+  KOKKOS_INLINE_FUNCTION static void add(Number const (&r)[3], Number const& inverse, Number const& a, Number const& b, Inside const& inside,
                   Real const* q, Number (&p)[3]) {
     Real const* n = q + 3;
     Number const rq = r[0] * q[0] + r[1] * q[1] + r[2] * q[2], rn = r[0] * n[0] + r[1] * n[1] + r[2] * n[2];

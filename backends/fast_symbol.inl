@@ -4,7 +4,9 @@
 //   rotlet     (k^2 / 2) i k x t
 //   stresslet  i (k^2 (2 S k + tr(S) k) - 2 k (k.S k)),  S = (q n + n q) / 2 as xx yy zz xy xz yz
 //   pressures, as x components:  -i k^2 (k.f)  and  2 k^2 (k.S k)
-// P is a vector type; strengths and velocities are (real, imaginary) arrays.
+// P is a number or a vector; strengths and velocities are (real, imaginary) arrays.
+
+#include <Kokkos_Macros.hpp>
 
 namespace asterflow {
 namespace {
@@ -12,7 +14,7 @@ namespace {
 struct StokesletSymbol {
   static constexpr int components = 3;
   template <class P>
-  static void apply(P const (&k)[3], P s, P const* re, P const* im, P* u_re, P* u_im) {
+  KOKKOS_INLINE_FUNCTION static void apply(P const (&k)[3], P s, P const* re, P const* im, P* u_re, P* u_im) {
     P const k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
     P const along_re = k[0] * re[0] + k[1] * re[1] + k[2] * re[2];
     P const along_im = k[0] * im[0] + k[1] * im[1] + k[2] * im[2];
@@ -26,7 +28,7 @@ struct StokesletSymbol {
 struct RotletSymbol {
   static constexpr int components = 3;
   template <class P>
-  static void apply(P const (&k)[3], P s, P const* re, P const* im, P* u_re, P* u_im) {
+  KOKKOS_INLINE_FUNCTION static void apply(P const (&k)[3], P s, P const* re, P const* im, P* u_re, P* u_im) {
     P const half = s * (k[0] * k[0] + k[1] * k[1] + k[2] * k[2]) * 0.5f;
     for (int d = 0; d < 3; ++d) {
       int const a = (d + 1) % 3, b = (d + 2) % 3;
@@ -39,7 +41,7 @@ struct RotletSymbol {
 struct StressletSymbol {
   static constexpr int components = 6;
   template <class P>
-  static void contract(P const (&k)[3], P k2, P const* m, P* v) {
+  KOKKOS_INLINE_FUNCTION static void contract(P const (&k)[3], P k2, P const* m, P* v) {
     P const by_x = m[0] * k[0] + m[3] * k[1] + m[4] * k[2];
     P const by_y = m[3] * k[0] + m[1] * k[1] + m[5] * k[2];
     P const by_z = m[4] * k[0] + m[5] * k[1] + m[2] * k[2];
@@ -50,7 +52,7 @@ struct StressletSymbol {
     v[2] = twice * by_z + trace * k[2];
   }
   template <class P>
-  static void apply(P const (&k)[3], P s, P const* re, P const* im, P* u_re, P* u_im) {
+  KOKKOS_INLINE_FUNCTION static void apply(P const (&k)[3], P s, P const* re, P const* im, P* u_re, P* u_im) {
     P const k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
     P v_re[3], v_im[3];
     contract(k, k2, re, v_re);
@@ -65,7 +67,7 @@ struct StressletSymbol {
 struct StokesletPressureSymbol {
   static constexpr int components = 3;
   template <class P>
-  static void apply(P const (&k)[3], P s, P const* re, P const* im, P* p_re, P* p_im) {
+  KOKKOS_INLINE_FUNCTION static void apply(P const (&k)[3], P s, P const* re, P const* im, P* p_re, P* p_im) {
     P const factor = s * (k[0] * k[0] + k[1] * k[1] + k[2] * k[2]);
     p_re[0] = factor * (k[0] * im[0] + k[1] * im[1] + k[2] * im[2]);
     p_im[0] = -factor * (k[0] * re[0] + k[1] * re[1] + k[2] * re[2]);
@@ -75,12 +77,12 @@ struct StokesletPressureSymbol {
 struct StressletPressureSymbol {
   static constexpr int components = 6;
   template <class P>
-  static P along(P const (&k)[3], P const* m) {
+  KOKKOS_INLINE_FUNCTION static P along(P const (&k)[3], P const* m) {
     P const mixed = k[0] * (k[1] * m[3] + k[2] * m[4]) + k[1] * k[2] * m[5];
     return k[0] * k[0] * m[0] + k[1] * k[1] * m[1] + k[2] * k[2] * m[2] + (mixed + mixed);
   }
   template <class P>
-  static void apply(P const (&k)[3], P s, P const* re, P const* im, P* p_re, P* p_im) {
+  KOKKOS_INLINE_FUNCTION static void apply(P const (&k)[3], P s, P const* re, P const* im, P* p_re, P* p_im) {
     P const factor = s * (k[0] * k[0] + k[1] * k[1] + k[2] * k[2]) * 2.0f;
     p_re[0] = factor * along(k, re);
     p_im[0] = factor * along(k, im);

@@ -1,0 +1,52 @@
+// The parts of a fast sum on host threads, with the inner loops of one instruction set.
+
+#include "backends/backend.hpp"
+#include "backends/fast_far.hpp"
+#include "backends/fast_instructions.hpp"
+#include "backends/fast_kernel.hpp"
+#include "backends/fast_near.hpp"
+#include "backends/fast_parts.hpp"
+#include "base/parallel.hpp"
+
+namespace asterflow {
+namespace {
+
+template <class Real>
+class HostParts final : public FastParts {
+ public:
+  HostParts(std::string_view kernel, FastParameters const& parameters, FastLoops<Real> const& loops)
+      : near_(fast_kernel(kernel), loops, KernelSplit(parameters.split_shape).local_part(kernel, parameters.local_tolerance),
+              parameters.refinement_steps),
+        far_(fast_kernel(kernel), loops, parameters) {}
+
+  void set_points(Octree& tree, ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
+    near_.set_points(tree, sources, targets);
+    far_.set_points(tree);
+    normals_.assign(normals.begin(), normals.end());
+  }
+
+  void add(ConstPoints strengths, Points velocity, Points slopes) override {
+    Vec3d const* const normals = normals_.empty() ? nullptr : normals_.data();
+    Vec3d* const gradient = slopes.empty() ? nullptr : slopes.data();
+    near_.set_strengths(strengths.data(), normals);
+    parallel_for("Fast::near", near_.n_items(), [&](long i) { near_.add(i, velocity.data(), gradient); });
+    far_.add(strengths.data(), normals, velocity.data(), gradient);
+  }
+
+  std::size_t memory() const override { return near_.memory() + far_.memory() + sizeof(Vec3d) * normals_.capacity(); }
+
+ private:
+  NearField<Real> near_;
+  FarField<Real> far_;
+  PointArray normals_;
+};
+
+}  // namespace
+
+std::unique_ptr<FastParts> make_host_parts(std::string_view kernel, FastParameters const& parameters,
+                                           FastInstructions instructions) {
+  if (parameters.single) return std::make_unique<HostParts<float>>(kernel, parameters, fast_loops_of<float>(instructions));
+  return std::make_unique<HostParts<double>>(kernel, parameters, fast_loops_of<double>(instructions));
+}
+
+}  // namespace asterflow

@@ -1,0 +1,68 @@
+#pragma once
+// Which pairs the near field sums: targets in compact groups, every group with the list of sources within the cutoff
+// of the coarser of their two leaves. Made once per geometry.
+
+#include "backends/fast_loops.hpp"
+#include "backends/fast_tree.hpp"
+
+#include <vector>
+
+namespace asterflow {
+
+class NearLists {
+ public:
+  struct Leaf {
+    std::vector<NearGroup> groups;
+    std::vector<NearSegment> segments;
+    std::vector<std::uint16_t> list;   // sources of each segment, from its base
+    std::vector<std::uint32_t> close;  // sources too close to a target for float coordinates
+    std::vector<int> close_levels;
+  };
+  using Finder = long(NearQuery const&, long begin, long end, long base, std::uint16_t* found);
+
+  // group_size: targets of a group, at most NearQuery::max_target; find: see FastLoops::list_near.
+  NearLists(int group_size, bool sets_close_apart, Finder* find)
+      : group_size_(group_size), sets_close_apart_(sets_close_apart), find_(find) {}
+
+  // Orders the targets of every leaf into groups, then lists their sources. The points are those of the tree in
+  // their own units and order.
+  void set_points(Octree& tree, ConstPoints sources, ConstPoints targets);
+
+  std::vector<Leaf> const& leaves() const { return leaves_; }  // those with targets
+  int group_size() const { return group_size_; }
+  int n_level() const { return n_level_; }
+
+  // In the order of the tree, coordinates that are the points' own up to a power of two, so that differences are exact.
+  PointArray const& sources() const { return sources_; }
+  PointArray const& targets() const { return targets_; }
+  double side() const { return side_; }  // of the root in these coordinates, 0.5 ... 1
+
+  std::size_t memory() const;
+
+ private:
+  struct Candidates {
+    int level;
+    Range sources;
+  };
+
+  void copy_points(Octree const& tree, ConstPoints sources, ConstPoints targets);
+  std::vector<Candidates> candidates(Octree const& tree, int level, Box const& box) const;
+  Leaf list_sources(Octree const& tree, int level, Box const& box) const;
+  NearQuery query(PointArray const& targets, long first, int n) const;
+  void append_near(NearQuery const& query, NearGroup const& group, Candidates const& from, std::size_t first_segment,
+                   Leaf& leaf) const;
+  void set_close_apart(NearQuery const& query, NearGroup const& group, Candidates const& from, std::uint32_t base,
+                       std::size_t first, Leaf& leaf) const;
+  bool is_close(long target, int n_target, std::uint32_t source) const;
+
+  int group_size_;
+  bool sets_close_apart_;
+  Finder* find_;
+  int n_level_ = 0;
+  double side_ = 1.0;
+  std::vector<Leaf> leaves_;
+  PointArray sources_, targets_;
+  std::vector<float> filter_[3];  // normalised coordinates of the sources, while lists are made
+};
+
+}  // namespace asterflow
