@@ -15,4 +15,8 @@ DynamicInstabilitySpec read_dynamic_instability(Table table) {
   return spec;
 }
 
+double length_decay(DynamicInstabilitySpec const& spec) {
+  return spec.catastrophe_rate / spec.growth_speed - spec.rescue_rate / spec.shrinkage_speed;
+}
+
 }  // namespace asterflow

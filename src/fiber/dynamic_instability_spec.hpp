@@ -19,4 +19,8 @@ struct DynamicInstabilitySpec {
 
 DynamicInstabilitySpec read_dynamic_instability(Table table);
 
+// 1/um: k of the lengths exp(-k l) to which this leads, f_cat / V_g - f_res / V_s; negative where most fibers reach the
+// cortex.
+double length_decay(DynamicInstabilitySpec const& spec);
+
 }  // namespace asterflow

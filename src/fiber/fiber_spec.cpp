@@ -50,6 +50,13 @@ std::pair<Vec3d, Vec3d> normals(Vec3d axis) {
   return {first, cross(axis, first)};
 }
 
+// Growing and shrinking fibers that turn back at the cortex (b) and are renucleated at their least length (a) have, in
+// the long run, lengths of the density exp(-k l) on [a, b] [Dogterom & Leibler 1993]: chance = its integral from a to l.
+double steady_length(double a, double b, double k, double chance) {
+  double const part = -std::expm1(-k * (b - a));
+  return std::abs(part) < 1e-9 ? a + chance * (b - a) : a - std::log1p(-chance * part) / k;
+}
+
 double random_length(AsterSpec const& aster, double chance) {
   double const spread = aster.length - aster.minimal_length;
   switch (aster.lengths) {
@@ -106,7 +113,8 @@ AsterSpec read_aster(Table table) {
   using Lengths = AsterSpec::Lengths;
   table.read_choice<Lengths>(
       "lengths", aster.lengths,
-      {{"equal", Lengths::equal}, {"uniform", Lengths::uniform}, {"exponential", Lengths::exponential}});
+      {{"equal", Lengths::equal}, {"uniform", Lengths::uniform}, {"exponential", Lengths::exponential},
+       {"steady", Lengths::steady}});
   table.read("minimal_length", aster.minimal_length, positive, "um");
   table.read("length", aster.length, positive, "um");
   if (aster.length < aster.minimal_length) table.fail("length", "must be at least minimal_length (um)");
@@ -116,7 +124,8 @@ AsterSpec read_aster(Table table) {
 }
 
 std::vector<AsterFiber> aster_fibers(AsterSpec const& aster, int count, int body, std::uint64_t seed,
-                                     std::uint64_t number, std::function<double(MinusEndSite const&)> const& reach) {
+                                     std::uint64_t number, std::function<double(MinusEndSite const&)> const& reach,
+                                     double decay) {
   auto const [first, second] = normals(aster.axis);
   double const lowest = std::cos(aster.opening * std::numbers::pi / 180.0);
   double const golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
@@ -129,8 +138,13 @@ std::vector<AsterFiber> aster_fibers(AsterSpec const& aster, int count, int body
     double const z = lowest + (1.0 - lowest) * height, r = std::sqrt(std::max(0.0, 1.0 - z * z));
     Vec3d const direction = normalized(z * aster.axis + (r * std::cos(turn)) * first + (r * std::sin(turn)) * second);
     fibers[i].site = {aster.material.minus_end, body, aster.position + aster.centrosome_radius * direction, direction};
-    fibers[i].length = random_length(aster, uniform_random(seed, stream, i, 2));
-    if (reach) fibers[i].length = std::max(aster.minimal_length, std::min(fibers[i].length, reach(fibers[i].site)));
+    double const chance = uniform_random(seed, stream, i, 2);
+    fibers[i].length = random_length(aster, chance);
+    if (!reach) continue;
+    double const longest = std::max(aster.minimal_length, reach(fibers[i].site));
+    fibers[i].length = aster.lengths == AsterSpec::Lengths::steady
+                           ? steady_length(aster.minimal_length, longest, decay, chance)
+                           : std::min(fibers[i].length, longest);
   }
   return fibers;
 }

@@ -34,7 +34,7 @@ struct FiberSpec {
 
 struct AsterSpec {
   enum class Arrangement { random, even };
-  enum class Lengths { equal, uniform, exponential };
+  enum class Lengths { equal, uniform, exponential, steady };
 
   FiberMaterialSpec material{.minus_end = MinusEnd::clamped};  // a fiber of an aster is not free
   std::string body;     // name of the body that carries the centrosome; empty: it is fixed in space
@@ -45,7 +45,8 @@ struct AsterSpec {
   int count = 100;                 // fibers, >= 0
   Arrangement arrangement = Arrangement::random;  // random: independent, uniform over the opening; even: on a spiral
   Lengths lengths = Lengths::equal;               // equal; uniform from minimal_length to 2 length - minimal_length;
-                                                  // exponential beyond minimal_length with that mean
+                                                  // exponential beyond minimal_length with that mean; steady: those
+                                                  // to which dynamic instability leads in a cell at rest
   double length = 5.0;                            // um, > minimal_length: the mean
   double minimal_length = 0.5;                    // um, > 0
 };
@@ -61,9 +62,10 @@ struct AsterFiber {
 
 // The first `count` fibers of an aster, a pure function of (seed, number of the aster): more fibers do not move the
 // first ones when the arrangement is random. `body`: index of its body or -1. `reach`, if not empty, gives how long a
-// fiber on that site may be, um.
+// fiber on that site may be, um. `decay`: 1/um, of steady lengths.
 std::vector<AsterFiber> aster_fibers(AsterSpec const& aster, int count, int body, std::uint64_t seed,
                                      std::uint64_t number,
-                                     std::function<double(MinusEndSite const&)> const& reach = {});
+                                     std::function<double(MinusEndSite const&)> const& reach = {},
+                                     double decay = 0.0);
 
 }  // namespace asterflow

@@ -83,7 +83,16 @@ void check_names(SceneTables const& tables, Scene const& scene) {
   check_body_reference(tables.drag, scene, scene.drag.body);
 }
 
+// Lengths that grow without bound have no steady state.
+void check_steady_lengths(SceneTables const& tables, Scene const& scene) {
+  bool const is_bounded = scene.periphery && scene.dynamic_instability;
+  for (std::size_t i = 0; i < scene.asters.size(); ++i)
+    if (scene.asters[i].lengths == AsterSpec::Lengths::steady && !(is_bounded && scene.asters[i].material.growing))
+      tables.asters[i].fail("lengths", "\"steady\" needs growing = true and tables [dynamic_instability] and [periphery]");
+}
+
 void check_growth(SceneTables const& tables, Scene const& scene) {
+  check_steady_lengths(tables, scene);
   if (scene.dynamic_instability) return;
   for (std::size_t i = 0; i < scene.fibers.size(); ++i)
     if (scene.fibers[i].material.growing) tables.fibers[i].fail("growing", "needs a table [dynamic_instability]");

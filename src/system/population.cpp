@@ -66,7 +66,8 @@ void add_scene_fibers(Scene const& scene, Fibers& fibers, std::optional<PlusEnds
     auto const reach = [&](MinusEndSite const& site) {
       return placed.reach(pose.point(site.position), pose.rotation * site.direction, 100.0 * aster.length) - margin;
     };
-    for (auto const& fiber : aster_fibers(aster, aster.count, body, scene.run.seed, number, reach)) {
+    double const decay = scene.dynamic_instability ? length_decay(*scene.dynamic_instability) : 0.0;
+    for (auto const& fiber : aster_fibers(aster, aster.count, body, scene.run.seed, number, reach, decay)) {
       auto const shape = straight_centreline(pose.point(fiber.site.position),
                                              pose.rotation * fiber.site.direction, fiber.length, properties.n_node);
       std::size_t const index = fibers.add(properties, fiber.site, shape);

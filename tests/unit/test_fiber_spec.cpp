@@ -71,6 +71,24 @@ TEST(FiberSpec, reach_limits_the_length) {
     EXPECT_EQ(fiber.length, 0.5);
 }
 
+TEST(FiberSpec, steady_lengths_are_exponential_up_to_the_cortex) {
+  AsterSpec const aster = aster_from("lengths = \"steady\"");
+  double const a = 0.5, b = 12.0;
+  auto const reach = [&](auto const&) { return b; };
+  for (double k : {0.2, 0.0, -0.1}) {
+    auto const fibers = aster_fibers(aster, 4000, -1, 7, 2, reach, k);
+    double mean = 0.0;
+    for (auto const& fiber : fibers) {
+      ASSERT_GE(fiber.length, a);
+      ASSERT_LE(fiber.length, b);
+      mean += fiber.length / fibers.size();
+    }
+    // int l exp(-k l) / int exp(-k l)
+    double const width = b - a, exact = k == 0 ? 0.5 * (a + b) : a + 1 / k - width / std::expm1(k * width);
+    EXPECT_NEAR(mean, exact, 4 * width / std::sqrt(12.0 * 4000)) << k;  // four standard deviations of the uniform case
+  }
+}
+
 TEST(FiberSpec, curve_through_points_of_a_circle_is_that_arc) {
   PointArray points;
   double const radius = 3.0, angle = 1.0;
