@@ -69,9 +69,11 @@ void Pushing::make_contact(std::size_t tip, Vec3d reached, double left) {
   trial_[tip] = {.is_made = true, .anchor = cortex_.at_distance(reached, contact_distance()), .sliding_time = left};
 }
 
+// Of second order from the beginning: on contact the spring is not loaded, so the anchor is at rest, and the trapezoidal
+// rule from rest is backward Euler over half the time.
 TimeScheme Pushing::scheme(Contact const& contact, double dt) const {
-  if (contact.sliding_time > 0) return backward_euler(contact.sliding_time);
-  return contact.has_before ? second_order_scheme(dt, dt_before_) : backward_euler(dt);
+  double const time = contact.sliding_time.value_or(dt);
+  return contact.span > 0 ? second_order_scheme(time, contact.span) : backward_euler(0.5 * time);
 }
 
 // The anchor's slip is eliminated: K (I - n n) (X - X_att) = zeta (a0 X_att - a0 A) / dt.
@@ -79,7 +81,7 @@ TipLoad Pushing::spring(std::size_t tip, double dt) const {
   Contact const& contact = trial_[tip];
   double const k = stiffness_[tip], across = std::max(k, spec_.stall_force / spec_.range);
   Vec3d expected = contact.anchor;  // at the end of the step
-  if (contact.has_before) expected += (dt / dt_before_) * (contact.anchor - contact.anchor_before);
+  if (contact.span > 0) expected += (dt / contact.span) * (contact.anchor - contact.anchor_before);
   expected = cortex_.at_distance(expected, contact_distance());
   Eigen::Vector3d const n = to_eigen(cortex_.near(expected).normal);
   if (spec_.sliding == Sliding::none)
@@ -129,13 +131,8 @@ void Pushing::advance(std::size_t tip, bool is_pushing, Vec3d force, Vec3d posit
     Vec3d const history = scheme.a1 * contact.anchor + scheme.a2 * contact.anchor_before;
     anchor = cortex_.at_distance((1.0 / (scheme.a0 + k)) * (history + k * position), contact_distance());
   }
-  bool const has_before = now_[tip].is_made;  // else the anchor before is younger than a whole step
-  contact = {true, has_before, anchor, contact.anchor, force, std::max(0.0, -dot(force, tangent))};
-}
-
-void Pushing::accept(double dt) {
-  now_ = trial_;
-  dt_before_ = dt;
+  double const span = contact.sliding_time.value_or(dt);
+  contact = {true, span, anchor, contact.anchor, force, std::max(0.0, -dot(force, tangent))};
 }
 
 bool Pushing::is_in_reach(Vec3d position) const {
@@ -145,20 +142,18 @@ bool Pushing::is_in_reach(Vec3d position) const {
 std::vector<NamedArray> Pushing::state() const {
   std::vector<double> values;
   for (Contact const& c : now_) {
-    values.insert(values.end(), {double(c.is_made), double(c.has_before), c.compression});
+    values.insert(values.end(), {double(c.is_made), c.span, c.compression});
     for (Vec3d v : {c.anchor, c.anchor_before, c.force}) values.insert(values.end(), {v.x, v.y, v.z});
   }
-  return {{"pushing/contact", {now_.size(), 12}, values, ""},
-          NamedArray::of("pushing/time_step", std::vector<double>{dt_before_}, "s")};
+  return {{"pushing/contacts", {now_.size(), 12}, values, ""}};
 }
 
 void Pushing::restore(std::span<NamedArray const> state) {
-  auto const& values = stored_values(state, "pushing/contact", 12 * now_.size());
+  auto const& values = stored_values(state, "pushing/contacts", 12 * now_.size());
   for (std::size_t i = 0; i < now_.size(); ++i) {
     double const* v = &values[12 * i];
-    now_[i] = {v[0] != 0, v[1] != 0, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}, {v[9], v[10], v[11]}, v[2]};
+    now_[i] = {v[0] != 0, v[1], {v[3], v[4], v[5]}, {v[6], v[7], v[8]}, {v[9], v[10], v[11]}, v[2]};
   }
-  dt_before_ = stored_values(state, "pushing/time_step", 1)[0];
   trial_ = now_;
 }
 

@@ -41,7 +41,7 @@ class Pushing {
 
   // Completes a step: tips that still push have this force (pN), position and tangent at its end.
   void advance(std::size_t tip, bool is_pushing, Vec3d force, Vec3d position, Vec3d tangent, double dt);
-  void accept(double dt);
+  void accept() { now_ = trial_; }
   // Whether a tip there is still in reach of the cortex; springs keep theirs.
   bool is_in_reach(Vec3d position) const;
 
@@ -50,11 +50,12 @@ class Pushing {
 
  private:
   struct Contact {
-    bool is_made = false, has_before = false;
+    bool is_made = false;
+    double span = 0.0;                // s, between the two anchors; 0: there is one only, where contact was made
     Vec3d anchor{}, anchor_before{};  // um
     Vec3d force{};                    // pN, on the tip
     double compression = 0.0;         // pN
-    double sliding_time = 0.0;        // s, of the step in which contact was made
+    std::optional<double> sliding_time = {};  // s, of the step, when contact was made in it
   };
 
   TimeScheme scheme(Contact const& contact, double dt) const;
@@ -65,7 +66,6 @@ class Pushing {
   CortexSurface cortex_;
   std::vector<double> stiffness_;  // [n_tip] pN/um
   std::vector<Contact> now_, trial_;
-  double dt_before_ = 0.0;
 };
 
 // The force that a load exerts on a tip which it moves from `free_position` by the compliance, pN.

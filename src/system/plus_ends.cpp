@@ -229,7 +229,7 @@ void PlusEnds::accept(Fibers const& fibers) {
       pulling_->advance(i, trial.state == TipState::captured, pulling_->pull(tip, tangent), speeds_[i]);
   }
   growth_.accept();
-  if (pushing_) pushing_->accept(dt_);
+  if (pushing_) pushing_->accept();
   if (pulling_) pulling_->accept();
 }
 

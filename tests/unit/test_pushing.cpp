@@ -111,20 +111,20 @@ TEST(Pushing, friction_lies_between_the_limits) {
 }
 
 TEST(Pushing, slides_at_the_speed_of_force_over_friction) {
+  // A tip that leaves the contact at v along the wall: zeta dx/dt = K (v t - x), so it leads by v tau (1 - exp(-t / tau)).
   Pushing pushing = pushing_of({.sliding = PushingSpec::Sliding::friction, .friction = 50.0});
-  pushing.make_contact(0, {0, 0, 4.9}, 0.1);
-  Vec3d const position{0.2, 0.0, 4.9};  // held there: the anchor approaches with the rate K / zeta
-  double const dt = 0.01;
+  double const dt = 0.01, v = 0.02, tau = 50.0 / 40.0;
+  auto const position = [&](double t) { return Vec3d{v * t, 0.0, 4.9}; };
   for (int i = 0; i < 100; ++i) {
     pushing.begin_step();
     if (i == 0) pushing.make_contact(0, {0, 0, 4.9}, dt);
-    pushing.advance(0, true, {}, position, {0, 0, 1}, dt);
-    pushing.accept(dt);
+    pushing.advance(0, true, {}, position((i + 1) * dt), {0, 0, 1}, dt);
+    pushing.accept();
   }
   pushing.begin_step();
-  TipLoad const load = pushing.load(0, position, Matrix3::Zero(), {0, 0, 1}, 1e-9);
-  double const rate = 40.0 / 50.0;
-  EXPECT_NEAR(position.x - load.anchor.x, 0.2 * std::exp(-rate), 1e-3 * 0.2);
+  TipLoad const load = pushing.load(0, position(1.0), Matrix3::Zero(), {0, 0, 1}, 1e-9);
+  double const exact = v * tau * (1 - std::exp(-1.0 / tau));
+  EXPECT_NEAR(position(1.0).x - load.anchor.x, exact, 1e-3 * exact);  // the wall is curved
 }
 
 TEST(Pushing, rates_follow_the_force) {
@@ -168,14 +168,16 @@ TEST(Pushing, plus_end_slides_or_stays) {
 }
 
 TEST(Pushing, converges_at_about_second_order_in_time) {
-  for (std::string const& sliding : {no_sliding, free_sliding, std::string("sliding = \"friction\"\nspring_stiffness = 30.0\nfriction = 20.0\n")}) {
+  // With friction d* = 0.2 um: a stiffer contact moves the sliding tip within 3 ms, which these steps do not resolve.
+  std::string const friction = "sliding = \"friction\"\nrange = 0.2\nspring_stiffness = 30.0\nfriction = 20.0\n";
+  for (std::string const& sliding : {no_sliding, free_sliding, friction}) {
     auto const tip_after = [&](double dt) {
       std::string const steps = "adaptive = false\ntime_step = " + std::to_string(dt) + "\n";
       return plus_end(simulated(growing_scene(sliding, oblique, 4.0) + steps, 2.0)->fibers().shape(0));
     };
-    // Over four halvings: the instant of contact falls differently into every step. With friction the order is 1.6.
+    // Over four halvings: the instant of contact falls differently into every step.
     double const coarse = norm(tip_after(0.1) - tip_after(0.05)), fine = norm(tip_after(0.00625) - tip_after(0.003125));
     double const order = std::log2(coarse / fine) / 4;
-    EXPECT_GT(order, sliding.find("friction") == std::string::npos ? 1.7 : 1.5) << sliding << coarse << " " << fine;
+    EXPECT_GT(order, sliding == friction ? 1.9 : 1.7) << sliding << coarse << " " << fine;
   }
 }
