@@ -58,11 +58,12 @@ enum class TipState : int {
   captured = 4,   // held and pulled by a cortical site
 };
 
-// What the ends of a fiber feel and pass on.
+// What the ends of a fiber feel and pass on, and what others exert on its nodes.
 struct EndForces {
   Vec3d plus_end{};          // pN, on the plus end
   Vec3d minus_end{};         // pN, of the fiber on what holds its minus end: F(0) = T X_s - E X_sss
   Vec3d minus_end_torque{};  // pN um, about the minus end
+  Vec3d contact{};           // pN, sum of the loads on its nodes, but for those of the body that holds it
 };
 
 }  // namespace asterflow

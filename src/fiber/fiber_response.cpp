@@ -172,8 +172,10 @@ EndForces FiberResponse::internal_forces(ConstPoints u, Vector6 const& q, Centre
   int const n = basis.n_node;
   std::array<Vec3d, max_fiber_nodes> force{};  // per length, on the fluid
   total_force(u, q, Points(force.data(), n));
+  EndForces ends;
   for (int i = 0; i < n; ++i) {  // elastic part
     Vec3d const other = step_.node_loads.empty() ? Vec3d{} : node_force(i, u[i], q, force[i]);
+    if (has_external_load(i)) ends.contact += weights_[i] * other;
     force[i] -= applied(i) + other;
   }
   Vec3d const tip = tip_force(u, q);
@@ -186,7 +188,8 @@ EndForces FiberResponse::internal_forces(ConstPoints u, Vector6 const& q, Centre
     }
     tension[i] = dot(internal, tangent) - step_.bending_rigidity * dot(bend, bend);
   }
-  EndForces ends{tip, tip, cross(plus_end_ - minus_end_, tip)};
+  ends.plus_end = ends.minus_end = tip;
+  ends.minus_end_torque = cross(plus_end_ - minus_end_, tip);
   for (int i = 0; i < n; ++i) {
     ends.minus_end -= weights_[i] * force[i];
     ends.minus_end_torque -= weights_[i] * cross(nodes_[i] - minus_end_, force[i]);

@@ -1,6 +1,7 @@
 #include "observable/flow_observables.hpp"
 
 #include "fiber/fibers.hpp"
+#include "io/frame.hpp"
 #include "observable/fluid_samples.hpp"
 #include "observable/force_moments.hpp"
 #include "system/no_slip.hpp"
@@ -60,24 +61,25 @@ void add_fibers(StoredFlow const& flow, Scene const& scene, StoredFibers const& 
 }
 
 // Forces from outside on plus ends, along fibers and on free bodies; NaN with held bodies, whose holder is not stored.
-Vec3d applied_force(Scene const& scene, StoredFibers const& fibers) {
+Vec3d applied_force(Scene const& scene, Frame const& frame, StoredFibers const& fibers) {
   Vec3d sum{};
   for (std::size_t i = 0; i < fibers.count(); ++i) {
-    sum += fibers.plus_end_force[i] + fibers.length[i] * fibers.external_load[i];
+    sum += fibers.plus_end_force[i] + fibers.contact_force[i] + fibers.length[i] * fibers.external_load[i];
     if (fibers.body[i] < 0) sum -= fibers.minus_end_force[i];  // what holds it in space gives this back
   }
   for (auto const& body : scene.bodies)
     sum += body.motion == BodySpec::Motion::free ? body.force : Vec3d{std::nan(""), 0.0, 0.0};
+  for (Vec3d const& contact : points_of(frame, "body/contact_force")) sum += contact;
   return sum;
 }
 
-void add_moments(StoredFlow const& flow, Scene const& scene, SceneFlows const& flows, StoredFibers const& fibers,
-                 Observables& row) {
+void add_moments(StoredFlow const& flow, Scene const& scene, SceneFlows const& flows, Frame const& frame,
+                 StoredFibers const& fibers, Observables& row) {
   Vec3d const centre = scene.bodies.empty() ? Vec3d{} : flow.radiation().body_pose(0).position;
   ForceMoments const sum = force_moments(flow, flows, scene.fluid.viscosity, fibers, centre);
   for (int k = 0; k < 3; ++k) row.push_back({std::string("net_force_") + axes[k], sum.force[k]});
   for (int k = 0; k < 3; ++k) row.push_back({std::string("net_torque_") + axes[k], sum.torque[k]});
-  row.push_back({"force_imbalance", norm(sum.force - applied_force(scene, fibers))});
+  row.push_back({"force_imbalance", norm(sum.force - applied_force(scene, frame, fibers))});
   for (auto const& [i, j] : {std::pair{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}})
     row.push_back({std::string("force_moment_") + axes[i] + axes[j], sum.moment(i, j)});
   row.push_back({"puller_index", sum.absolute > 0.0 ? -1.5 * sum.moment(0, 0) / sum.absolute : std::nan("")});
@@ -146,7 +148,7 @@ Observables flow_observables(Scene const& scene, SceneFlows const& flows, Frame 
   StoredFlow const flow(scene, flows, frame);
   Observables row;
   add_fibers(flow, scene, fibers, row);
-  add_moments(flow, scene, flows, fibers, row);
+  add_moments(flow, scene, flows, frame, fibers, row);
   add_speeds(flow, scene, frame, fibers, row);
   return row;
 }

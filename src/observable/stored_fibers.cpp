@@ -71,11 +71,12 @@ StoredFibers stored_fibers(Scene const& scene, Frame const& frame) {
   fibers.plus_end_force = points_of(frame, "fiber/plus_end_force");
   fibers.minus_end_force = points_of(frame, "fiber/minus_end_force");
   fibers.minus_end_torque = points_of(frame, "fiber/minus_end_torque");
+  fibers.contact_force = points_of(frame, "fiber/contact_force");
   fibers.motor_load = numbers_of(frame, "fiber/motor_load");
   std::size_t const n = fibers.count();
   if (fibers.first.empty()) fibers.first.push_back(0);
   fibers.tip_state.resize(n);
-  for (auto* forces : {&fibers.plus_end_force, &fibers.minus_end_force, &fibers.minus_end_torque}) forces->resize(n);
+  for (auto* forces : {&fibers.plus_end_force, &fibers.minus_end_force, &fibers.minus_end_torque, &fibers.contact_force}) forces->resize(n);
   fibers.motor_load.resize(n);
   add_scene_fibers(scene, fibers);
   if (fibers.material.size() != n || fibers.first.size() != n + 1 || fibers.position.size() != fibers.weight.size())

@@ -18,6 +18,7 @@ struct StoredFibers {
   std::vector<std::int64_t> tip_state;     // [n_fiber] of TipState
   PointArray plus_end_force;               // [n_fiber] pN, on the plus end
   PointArray minus_end_force, minus_end_torque;  // [n_fiber] pN, pN um, on what holds the minus end, about that end
+  PointArray contact_force;                // [n_fiber] pN, of the cortex on its nodes
   std::vector<double> motor_load;          // [n_fiber] pN/um, along the tangent
   std::vector<FiberMaterialSpec> material;  // [n_fiber]
   PointArray external_load;                // [n_fiber] pN/um, along the whole fiber

@@ -44,6 +44,7 @@ struct Simulation::Trial {
   double error = 0.0;     // um
   std::string misplaced;  // what is not where it may be; then nothing else is known
   ScatteringSolution solution;
+  std::vector<Vector6> contacts;  // [n_body]
 };
 
 Simulation::Simulation(Scene scene)
@@ -98,6 +99,10 @@ Matrix6 Simulation::resistance_alone(std::size_t body, RigidPose const& pose) co
   return body_resistance(*flows_.bodies[body], pose, scene_.fluid.viscosity);
 }
 
+ContactLoad Simulation::contact_of(std::size_t body, BodyMotionMap const& map) const {
+  return steric_repulsion_ && bodies_[body].is_free() ? steric_repulsion_->on_body(body, map) : ContactLoad{};
+}
+
 std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps) const {
   std::vector<BodyDrive> drives;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -109,11 +114,9 @@ std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps
       carried << to_eigen(background_->velocity(drive.pose.position)), to_eigen(background_->rotation());
       drive.value += drive.resistance * carried;
     }
-    if (steric_repulsion_ && body.is_free()) {
-      ContactLoad const contact = steric_repulsion_->on_body(b, maps[b]);
-      drive.resistance += contact.resistance;
-      drive.value += contact.load;
-    }
+    ContactLoad const contact = contact_of(b, maps[b]);
+    drive.resistance += contact.resistance;
+    drive.value += contact.load;
     drives.push_back(drive);
   }
   return drives;
@@ -196,7 +199,7 @@ void Simulation::advance(Trial& trial) {
 
 Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   Timer const timer;
-  Trial trial{.dt = dt, .error = 0.0, .misplaced = {}, .solution = {}};
+  Trial trial{.dt = dt, .error = 0.0, .misplaced = {}, .solution = {}, .contacts = {}};
   std::vector<BodyMotionMap> maps;
   for (auto& body : bodies_) maps.push_back(body.predict(dt));
   plan_fibers(dt);
@@ -207,6 +210,10 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   report.prepare_seconds += timer.seconds();
   if (!trial.misplaced.empty()) return trial;
   trial.solution = solve(expected, maps, report);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    ContactLoad const contact = contact_of(b, maps[b]);
+    trial.contacts.push_back(contact.load - contact.resistance * trial.solution.motions[b]);
+  }
   advance(trial);
   trial.misplaced = misplaced_trial();
   return trial;
@@ -220,6 +227,7 @@ void Simulation::accept(Trial&& trial) {
   last_dt_ = trial.dt;
   before_ = std::move(last_);
   last_ = std::move(trial.solution);
+  contacts_ = std::move(trial.contacts);
 }
 
 // Why a trial step is not accepted; "" when it is.

@@ -75,6 +75,7 @@ class Simulation {
   void plan_fibers(double dt);
   void hold_fibers(PointArray u, std::vector<BodyMotionMap> const& maps);
   std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps) const;
+  ContactLoad contact_of(std::size_t body, BodyMotionMap const& map) const;  // with the periphery
   Trial attempt(double dt, StepReport& report);
   ScatteringSolution solve(ConstPoints expected, std::vector<BodyMotionMap> const& maps, StepReport& report);
   void advance(Trial& trial);
@@ -98,6 +99,7 @@ class Simulation {
   double time_ = 0.0, dt_ = 0.0;                   // s; dt: to try next
   ScatteringSolution last_, before_;               // of the last two accepted steps
   double last_dt_ = 0.0;
+  std::vector<Vector6> contacts_;  // [n_body] force and torque of the periphery in the last step, pN, pN um
 };
 
 }  // namespace asterflow

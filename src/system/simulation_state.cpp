@@ -42,7 +42,7 @@ PointArray find_points(std::vector<NamedArray> const& arrays, std::string const&
 }  // namespace
 
 std::vector<NamedArray> Simulation::body_frame() const {
-  PointArray positions, velocities, angular;
+  PointArray positions, velocities, angular, contact_forces, contact_torques;
   std::vector<double> orientations;
   for (auto const& body : bodies_) {
     positions.push_back(body.pose().position);
@@ -51,10 +51,18 @@ std::vector<NamedArray> Simulation::body_frame() const {
     velocities.push_back(to_vec3(body.motion().head<3>()));
     angular.push_back(to_vec3(body.motion().tail<3>()));
   }
+  for (Vector6 const& contact : contacts_) {
+    contact_forces.push_back(to_vec3(contact.head<3>()));
+    contact_torques.push_back(to_vec3(contact.tail<3>()));
+  }
+  contact_forces.resize(bodies_.size());  // none before the first step
+  contact_torques.resize(bodies_.size());
   return {NamedArray::of("body/position", positions, "um"),
           {"body/orientation", {bodies_.size(), 4}, orientations, ""},
           NamedArray::of("body/velocity", velocities, "um/s"),
-          NamedArray::of("body/angular_velocity", angular, "rad/s")};
+          NamedArray::of("body/angular_velocity", angular, "rad/s"),
+          NamedArray::of("body/contact_force", contact_forces, "pN"),
+          NamedArray::of("body/contact_torque", contact_torques, "pN um")};
 }
 
 std::vector<NamedArray> Simulation::fiber_frame() const {
@@ -97,19 +105,21 @@ std::vector<NamedArray> Simulation::fiber_frame() const {
 std::vector<NamedArray> Simulation::fiber_end_frame() const {
   std::vector<std::int64_t> states;
   std::vector<double> motors;
-  PointArray plus_end_forces, minus_end_forces, minus_end_torques;
+  PointArray plus_end_forces, minus_end_forces, minus_end_torques, contact_forces;
   for (std::size_t i = 0; i < fibers_.count(); ++i) {
     auto const& ends = fibers_.ends(i);
     states.push_back(static_cast<std::int64_t>(tip_state(i)));
     plus_end_forces.push_back(ends.plus_end);
     minus_end_forces.push_back(ends.minus_end);
     minus_end_torques.push_back(ends.minus_end_torque);
+    contact_forces.push_back(ends.contact);
     motors.push_back(fibers_.load(i).motor);
   }
   return {NamedArray::of("fiber/tip_state", states),
           NamedArray::of("fiber/plus_end_force", plus_end_forces, "pN"),
           NamedArray::of("fiber/minus_end_force", minus_end_forces, "pN"),
           NamedArray::of("fiber/minus_end_torque", minus_end_torques, "pN um"),
+          NamedArray::of("fiber/contact_force", contact_forces, "pN"),
           NamedArray::of("fiber/motor_load", motors, "pN/um")};
 }
 

@@ -189,3 +189,30 @@ TEST(Observables, of_confined_pushing_balance_the_forces_on_plus_ends) {
 TEST(Observables, of_confined_capture_balance_the_forces_on_plus_ends) {
   expect_balance("[cortical_pulling]\nsites = 300\ncapture_rate = 20.0\n", "fibers_captured");
 }
+
+TEST(Observables, of_repelled_fibers_balance_the_forces_of_the_cortex) {
+  std::string const repulsion = "[steric_repulsion]\nrange = 0.6\n";  // wide: nodes of many fibers are within it
+  expect_balance("[pushing]\nsliding = \"none\"\n" + repulsion, "fibers_pushing");
+  auto const seen = observed_after(crowded_cell + "[cytoplasmic_pulling]\n" + repulsion, 0.3);
+  EXPECT_GT(std::abs(value(seen.flow, "net_force_x")), 0.1);  // pN, of the cortex on fibers and through them on the fluid
+  EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-8 * 5.0);  // of the pull of all motors: 12 fibers, 0.1 / um, 0.9 pN
+}
+
+TEST(Observables, of_a_body_against_the_cortex_balance_its_force) {
+  auto const seen = observed_after(R"(
+    [periphery]
+    shape = "sphere"
+    radius = 6.0
+    [[body]]
+    name = "ball"
+    shape = "sphere"
+    radius = 1.5
+    position = [4.0, 0.0, 0.0]
+    force = [20.0, 0.0, 0.0]
+    [steric_repulsion]
+    range = 0.6
+    [run]
+    accuracy = 1e-2)", 0.2);
+  EXPECT_LT(value(seen.flow, "net_force_x"), 19.0);
+  EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-8 * 20.0);
+}
