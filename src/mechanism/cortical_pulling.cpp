@@ -46,12 +46,23 @@ PointArray random_sites(Shape const& shape, int count, std::uint64_t seed) {
   return sites;
 }
 
-// Farthest extent of a surface along an axis, um.
+// Farthest extent of a surface along an axis, um: the best of a grid, then steps to better neighbours that halve.
 double extent(Shape const& shape, Vec3d axis) {
-  double farthest = 0.0;
-  for (int i = 0; i <= 200; ++i)
-    for (int j = 0; j < 200; ++j)
-      farthest = std::max(farthest, dot(axis, shape.point(std::numbers::pi * i / 200, std::numbers::pi * j / 100)));
+  auto const reach = [&](double theta, double phi) { return dot(axis, shape.point(theta, phi)); };
+  constexpr int n = 40;
+  double theta = 0.0, phi = 0.0, farthest = reach(0.0, 0.0);
+  auto const try_at = [&](double t, double p) {
+    if (!(reach(t, p) > farthest)) return false;
+    theta = t, phi = p, farthest = reach(t, p);
+    return true;
+  };
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j < 2 * n; ++j) try_at(std::numbers::pi * i / n, std::numbers::pi * j / n);
+  for (double step = std::numbers::pi / n; step > 1e-9;) {
+    bool const is_better = try_at(theta + step, phi) || try_at(theta - step, phi) || try_at(theta, phi + step) ||
+                           try_at(theta, phi - step);
+    if (!is_better) step *= 0.5;
+  }
   return farthest;
 }
 
