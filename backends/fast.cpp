@@ -51,7 +51,7 @@ class FastSum final : public Evaluator {
       auto* const make = instructions_ == FastInstructions::device ? make_device_parts : make_host_parts;
       parts_ = make(kernel_, parameters_, instructions_);
     }
-    parts_->set_points(*tree_, sources, targets, sorted);
+    parts_->set_points(*tree_, sorted);
   }
 
   void add_velocity(ConstPoints strengths, Points velocity) override {

@@ -41,6 +41,7 @@ class CheckedFast final : public Evaluator {
     first_->set_points(sources, targets, normals);
     stricter_.reset();
     accuracy_ = options_.accuracy;
+    is_strictest_ = accuracy_ == strictest;
     is_self_ = sources.data() == targets.data() && sources.size() == targets.size();
     sources_.assign(sources.begin(), sources.end());
     targets_.assign(targets.begin(), is_self_ ? targets.begin() : targets.end());

@@ -25,8 +25,8 @@ class DeviceParts final : public FastParts {
         close_(fast_kernel(kernel), local),
         far_(fast_kernel(kernel), parameters) {}
 
-  void set_points(Octree& tree, ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
-    lists_.set_points(tree, sources, targets);
+  void set_points(Octree& tree, ConstPoints normals) override {
+    lists_.set_points(tree);
     near_.set_points(lists_, false, normals);
     close_.set_points(lists_, true, normals);
     far_.set_points(tree, normals);

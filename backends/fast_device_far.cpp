@@ -133,6 +133,7 @@ void DeviceFar<Real>::send_patches() {
     }
     p.to_nodes = view.to_nodes;
     p.scale = view.scale;
+    p.slope_scale = view.slope_scale;
     auto const [symbol, is_new] = known_symbols.try_emplace(patch.symbol.get(), static_cast<long>(symbols.size()));
     if (is_new) symbols.insert(symbols.end(), patch.symbol->value.begin(), patch.symbol->value.end());
     p.symbol = symbol->second;

@@ -135,7 +135,7 @@ struct DeviceInterpolation {
             if (direction == 0)
               velocity(3 * target + c) += patch.scale * sum;
             else
-              slopes(9 * target + 3 * c + direction - 1) += patch.scale * patch.to_nodes * sum;
+              slopes(9 * target + 3 * c + direction - 1) += patch.slope_scale * sum;
           });
         }
     });

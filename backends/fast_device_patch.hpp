@@ -18,7 +18,7 @@ struct DeviceLine {
 
 struct DevicePatch {
   int nodes[3], blocks[3], modes[3], target_low[3], target_high[3];
-  double corner[3], to_nodes, scale;
+  double corner[3], to_nodes, scale, slope_scale;
   long source_begin;  // position of its first block in the table of first sources
   long target_begin, n_target;
   long symbol;        // position of its table
@@ -65,7 +65,7 @@ struct DeviceTables {
   DeviceArray<long> first_sources;        // [blocks of all patches, and one per patch]
   DeviceArray<std::uint32_t> sources, targets;  // of the patches, by block
   DeviceArray<Real> symbols, twiddles;
-  DeviceArray<double> source_points, target_points;  // [n, 3], normalised
+  DeviceArray<double> source_points, target_points;  // [n, 3]
   DeviceArray<Real> strengths;                       // [n_source, components]
   DeviceArray<Real> grid, spectrum;
 };

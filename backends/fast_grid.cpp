@@ -59,13 +59,14 @@ PatchView<Real> GridWindow<Real>::view(Patch<Real> const& patch, int lanes) cons
   PatchView<Real> view;
   for (int d = 0; d < 3; ++d) {
     view.nodes[d] = patch.nodes[d];
-    view.corner[d] = patch.origin[d] + (0.5 * width_ - 1.0) * patch.spacing;
+    view.corner[d] = patch.corner[d] + patch.unit_side * (patch.origin[d] + (0.5 * width_ - 1.0) * patch.spacing);
     view.target_low[d] = patch.target_low[d];
     view.target_high[d] = patch.target_high[d];
     view.lines[d] = patch.lines[d];
     view.modes[d] = patch.symbol ? patch.symbol->modes[d] : 0;
   }
-  view.to_nodes = 1.0 / patch.spacing;
+  view.to_nodes = 1.0 / (patch.unit_side * patch.spacing);
+  view.slope_scale = patch.scale / patch.spacing;
   view.scale = patch.scale;
   view.tile_y = patch.tile_y, view.tile_z = patch.tile_z;
   view.tiles_y = patch.tiles_y, view.tiles_z = patch.tiles_z;

@@ -191,7 +191,7 @@ void interpolate_rows(WindowView<Real> const& window, PatchView<Real> const& pat
                       Real const* grid, double* velocity, double* gradient) {
   using R = Row<Real, padded>;
   long const row = patch.velocity_row, stride_z = (patch.target_high[1] - patch.target_low[1]) * 3 * row;
-  double const slope_scale = patch.scale * patch.to_nodes;
+  double const slope_scale = patch.slope_scale;
   for (long k = patch.targets.begin[tile]; k < patch.targets.begin[tile + 1]; ++k) {
     long const i = patch.targets.index[k];
     GridPlace<Real> const place(patch, points + 3 * i);

@@ -19,8 +19,8 @@ class HostParts final : public FastParts {
               parameters.refinement_steps),
         far_(fast_kernel(kernel), loops, parameters) {}
 
-  void set_points(Octree& tree, ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
-    near_.set_points(tree, sources, targets);
+  void set_points(Octree& tree, ConstPoints normals) override {
+    near_.set_points(tree);
     far_.set_points(tree);
     normals_.assign(normals.begin(), normals.end());
   }

@@ -36,7 +36,7 @@ template <class Real>
 struct PatchView {
   int nodes[3];
   double corner[3], to_nodes;  // a window at x begins at node floor((x - corner) to_nodes) of the endless grid
-  double scale;
+  double scale, slope_scale;  // of velocities, and of their slopes per node
   int tile_y, tile_z, tiles_y, tiles_z;
   int target_low[3], target_high[3];
   long velocity_row, spectrum_row;
@@ -102,7 +102,7 @@ struct FastLoops {
   int tile_y = 0, tile_z = 0;  // nodes of one tile of the grid
 
   // One tile of the grid: spreads strengths [source, components] and transforms the rows along x.
-  // points [n, 3] normalised. scratch: forward_scratch numbers, aligned to 64 bytes.
+  // points [n, 3]. scratch: forward_scratch numbers, aligned to 64 bytes.
   void (*forward)(WindowView<Real> const&, PatchView<Real> const&, int components, long tile, double const* points,
                   Real const* strengths, Real* spectrum, Real* scratch) = nullptr;
   long (*forward_scratch)(WindowView<Real> const&, PatchView<Real> const&, int components) = nullptr;

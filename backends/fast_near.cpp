@@ -44,8 +44,8 @@ void NearField<Real>::make_levels() {
 }
 
 template <class Real>
-void NearField<Real>::set_points(Octree& tree, ConstPoints sources, ConstPoints targets) {
-  lists_.set_points(tree, sources, targets);
+void NearField<Real>::set_points(Octree& tree) {
+  lists_.set_points(tree);
   velocity_scale_ = std::pow(lists_.side(), decay(kernel_)) / (8.0 * M_PI);
   make_levels();
   copy_coordinates();

@@ -15,8 +15,8 @@ class NearField {
   // local: polynomials for cutoff 1; refinement_steps of the hardware's reciprocal square root.
   NearField(FastKernel kernel, FastLoops<Real> const& loops, LocalPart const& local, int refinement_steps);
 
-  // The points are those of the tree in their own units and order; orders the targets of its leaves.
-  void set_points(Octree& tree, ConstPoints sources, ConstPoints targets);
+  // Orders the targets of the tree's leaves; the tree must outlive the sums.
+  void set_points(Octree& tree);
 
   // Strengths and normals in the order of the tree's sources; kept until add() is done.
   void set_strengths(Vec3d const* strengths, Vec3d const* normals);

@@ -38,11 +38,9 @@ void make_compact(PointArray const& points, std::uint32_t* first, std::uint32_t*
 
 }  // namespace
 
-void NearLists::set_points(Octree& tree, ConstPoints sources, ConstPoints targets) {
+void NearLists::set_points(Octree& tree) {
+  tree_ = &tree;
   auto const& leaves = tree.leaves();
-  int exponent = 0;
-  side_ = std::frexp(tree.side(), &exponent);
-  n_level_ = static_cast<int>(leaves.size());
   std::vector<std::pair<int, Box const*>> boxes;
   for (std::size_t level = 0; level < leaves.size(); ++level)
     for (Box const& box : leaves[level])
@@ -55,35 +53,19 @@ void NearLists::set_points(Octree& tree, ConstPoints sources, ConstPoints target
     make_compact(tree.targets(), order.data(), order.data() + order.size(), group_size_);
     tree.reorder_targets(range, order);
   });
-  copy_points(tree, sources, targets);
-  for (auto& coordinates : filter_) coordinates.assign(sources.size() + NearQuery::max_target, 0.0f);
-  for_blocks("NearLists::set_points::filter", static_cast<long>(sources.size()), [&](long i) {
-    for (int d = 0; d < 3; ++d) filter_[d][i] = static_cast<float>(tree.sources()[i][d]);
+  for (auto& coordinates : filter_) coordinates.assign(sources().size() + NearQuery::max_target, 0.0f);
+  for_blocks("NearLists::set_points::filter", static_cast<long>(sources().size()), [&](long i) {
+    Vec3d const x = tree.normalised(sources()[i]);
+    for (int d = 0; d < 3; ++d) filter_[d][i] = static_cast<float>(x[d]);
   });
   parallel_for("NearLists::set_points::list", static_cast<long>(boxes.size()),
-               [&](long i) { leaves_[i] = list_sources(tree, boxes[i].first, *boxes[i].second); });
+               [&](long i) { leaves_[i] = list_sources(boxes[i].first, *boxes[i].second); });
   for (auto& coordinates : filter_) coordinates = {};
-}
-
-// The origin is moved only where the points are far from it, and then by a number with few bits.
-void NearLists::copy_points(Octree const& tree, ConstPoints sources, ConstPoints targets) {
-  double const unit = tree.side() / side_;
-  Vec3d origin;
-  for (int d = 0; d < 3; ++d)
-    origin[d] = std::abs(tree.corner()[d]) < 4.0 * unit ? 0.0 : std::floor(tree.corner()[d] / unit) * unit;
-  sources_.resize(sources.size());
-  targets_.resize(targets.size());
-  for_blocks("NearLists::copy_points::targets", static_cast<long>(targets.size()), [&](long i) {
-    targets_[i] = (targets[tree.target_order()[i]] - origin) * (1.0 / unit);
-  });
-  for_blocks("NearLists::copy_points::sources", static_cast<long>(sources.size()), [&](long i) {
-    sources_[i] = (sources[tree.source_order()[i]] - origin) * (1.0 / unit);
-  });
 }
 
 bool NearLists::is_close(long target, int n_target, std::uint32_t source) const {
   for (long t = target; t < target + n_target; ++t) {
-    Vec3d const r = targets_[t] - sources_[source];
+    Vec3d const r = targets()[t] - sources()[source];
     double const r2 = dot(r, r);
     if (r2 > 0.0 && r2 < close_distance * close_distance) return true;
   }
@@ -92,7 +74,7 @@ bool NearLists::is_close(long target, int n_target, std::uint32_t source) const 
 
 // Boxes of the target's own level hold only sources as fine or finer; coarser leaves are found around the
 // target's ancestors. By level and place, so that segments of lists can be joined.
-std::vector<NearLists::Candidates> NearLists::candidates(Octree const& tree, int level, Box const& box) const {
+std::vector<NearLists::Candidates> NearLists::candidates(int level, Box const& box) const {
   std::vector<Candidates> found;
   for (int l = level; l >= 0; --l) {
     int const shift = level - l;
@@ -101,9 +83,9 @@ std::vector<NearLists::Candidates> NearLists::candidates(Octree const& tree, int
       int const x = (box.place[0] >> shift) + i % 3 - 1, y = (box.place[1] >> shift) + i / 3 % 3 - 1,
                 z = (box.place[2] >> shift) + i / 9 - 1;
       if (std::min({x, y, z}) < 0 || std::max({x, y, z}) >= 1 << l) continue;
-      Box const* near = Octree::find(tree.leaves()[l], x, y, z);
-      if (!near && l == level && l < static_cast<int>(tree.refined().size()))
-        near = Octree::find(tree.refined()[l], x, y, z);
+      Box const* near = Octree::find(tree_->leaves()[l], x, y, z);
+      if (!near && l == level && l < static_cast<int>(tree_->refined().size()))
+        near = Octree::find(tree_->refined()[l], x, y, z);
       if (!near) continue;
       for (long begin = near->sources.begin; begin < near->sources.end; begin += list_span)
         found.push_back({l, {begin, std::min(near->sources.end, begin + list_span)}});
@@ -114,18 +96,18 @@ std::vector<NearLists::Candidates> NearLists::candidates(Octree const& tree, int
   return found;
 }
 
-NearQuery NearLists::query(PointArray const& targets, long first, int n) const {
+NearQuery NearLists::query(long first, int n) const {
   NearQuery q;
   q.n_target = n;
-  for (int d = 0; d < 3; ++d) {
-    q.sources[d] = filter_[d].data();
-    q.low[d] = q.high[d] = static_cast<float>(targets[first][d]);
-    for (int i = 0; i < n; ++i) {
-      q.targets[d][i] = static_cast<float>(targets[first + i][d]);
-      q.low[d] = std::min(q.low[d], q.targets[d][i]);
-      q.high[d] = std::max(q.high[d], q.targets[d][i]);
+  for (int i = 0; i < n; ++i) {
+    Vec3d const x = tree_->normalised(targets()[first + i]);
+    for (int d = 0; d < 3; ++d) {
+      q.targets[d][i] = static_cast<float>(x[d]);
+      q.low[d] = i == 0 ? q.targets[d][i] : std::min(q.low[d], q.targets[d][i]);
+      q.high[d] = i == 0 ? q.targets[d][i] : std::max(q.high[d], q.targets[d][i]);
     }
   }
+  for (int d = 0; d < 3; ++d) q.sources[d] = filter_[d].data();
   return q;
 }
 
@@ -167,13 +149,13 @@ void NearLists::set_close_apart(NearQuery const& query, NearGroup const& group, 
   leaf.list.erase(kept, leaf.list.end());
 }
 
-NearLists::Leaf NearLists::list_sources(Octree const& tree, int level, Box const& box) const {
+NearLists::Leaf NearLists::list_sources(int level, Box const& box) const {
   constexpr double slack = 4e-7;  // rounding of normalised float coordinates
-  auto const near = candidates(tree, level, box);
+  auto const near = candidates(level, box);
   Leaf leaf;
   for (long t = box.targets.begin; t < box.targets.end; t += group_size_) {
     NearGroup group{t, static_cast<int>(std::min<long>(group_size_, box.targets.end - t)), 0, 0};
-    NearQuery q = query(tree.targets(), t, group.n_target);
+    NearQuery q = query(t, group.n_target);
     std::size_t const first_segment = leaf.segments.size();
     for (auto const& from : near) {
       q.reach = static_cast<float>(std::ldexp(1.0, -from.level) + slack);
@@ -195,7 +177,7 @@ std::size_t NearLists::memory() const {
   for (Leaf const& leaf : leaves_)
     bytes += leaf.groups.capacity() * sizeof(NearGroup) + leaf.segments.capacity() * sizeof(NearSegment) +
              leaf.list.capacity() * sizeof(std::uint16_t) + leaf.close.capacity() * 2 * sizeof(std::uint32_t);
-  return bytes + (sources_.capacity() + targets_.capacity()) * sizeof(Vec3d);
+  return bytes;
 }
 
 }  // namespace asterflow

@@ -24,18 +24,16 @@ class NearLists {
   NearLists(int group_size, bool sets_close_apart, Finder* find)
       : group_size_(group_size), sets_close_apart_(sets_close_apart), find_(find) {}
 
-  // Orders the targets of every leaf into groups, then lists their sources. The points are those of the tree in
-  // their own units and order.
-  void set_points(Octree& tree, ConstPoints sources, ConstPoints targets);
+  // Orders the targets of every leaf into groups, then lists their sources. The tree must outlive the lists.
+  void set_points(Octree& tree);
 
   std::vector<Leaf> const& leaves() const { return leaves_; }  // those with targets
   int group_size() const { return group_size_; }
-  int n_level() const { return n_level_; }
+  int n_level() const { return static_cast<int>(tree_->leaves().size()); }
 
-  // In the order of the tree, coordinates that are the points' own up to a power of two, so that differences are exact.
-  PointArray const& sources() const { return sources_; }
-  PointArray const& targets() const { return targets_; }
-  double side() const { return side_; }  // of the root in these coordinates, 0.5 ... 1
+  PointArray const& sources() const { return tree_->sources(); }
+  PointArray const& targets() const { return tree_->targets(); }
+  double side() const { return tree_->unit_side(); }  // of the root
 
   std::size_t memory() const;
 
@@ -45,10 +43,9 @@ class NearLists {
     Range sources;
   };
 
-  void copy_points(Octree const& tree, ConstPoints sources, ConstPoints targets);
-  std::vector<Candidates> candidates(Octree const& tree, int level, Box const& box) const;
-  Leaf list_sources(Octree const& tree, int level, Box const& box) const;
-  NearQuery query(PointArray const& targets, long first, int n) const;
+  std::vector<Candidates> candidates(int level, Box const& box) const;
+  Leaf list_sources(int level, Box const& box) const;
+  NearQuery query(long first, int n) const;
   void append_near(NearQuery const& query, NearGroup const& group, Candidates const& from, std::size_t first_segment,
                    Leaf& leaf) const;
   void set_close_apart(NearQuery const& query, NearGroup const& group, Candidates const& from, std::uint32_t base,
@@ -58,10 +55,8 @@ class NearLists {
   int group_size_;
   bool sets_close_apart_;
   Finder* find_;
-  int n_level_ = 0;
-  double side_ = 1.0;
+  Octree const* tree_ = nullptr;
   std::vector<Leaf> leaves_;
-  PointArray sources_, targets_;
   std::vector<float> filter_[3];  // normalised coordinates of the sources, while lists are made
 };
 

@@ -11,9 +11,9 @@ class FastParts {
  public:
   virtual ~FastParts() = default;
 
-  // The points are those of the tree in their own units and order; normals in the order of the tree's sources, empty
-  // for kernels without. Orders the targets of the tree's leaves; the tree must outlive the sums.
-  virtual void set_points(Octree& tree, ConstPoints sources, ConstPoints targets, ConstPoints normals) = 0;
+  // normals in the order of the tree's sources, empty for kernels without. Orders the targets of the tree's leaves; the
+  // tree must outlive the sums.
+  virtual void set_points(Octree& tree, ConstPoints normals) = 0;
 
   // Adds the sum in units of the root's side, in the order of the tree.
   //   strengths [n_source], velocity [n_target]

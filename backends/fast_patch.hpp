@@ -1,6 +1,7 @@
 #pragma once
 // One rectangular piece of one level: a periodic grid on which the sources near the patch act on the targets
-// inside it through that level's band-limited kernel. Lengths are in units of the root's side.
+// inside it through that level's band-limited kernel. Lengths are in units of the root's side; places of points in those
+// of the tree's points.
 
 #include "backends/fast_fourier.hpp"
 #include "backends/fast_tree.hpp"
@@ -31,6 +32,8 @@ struct Patch {
   Vec3d origin;                      // position of node (0, 0, 0)
   double spacing = 1.0;
   double scale = 1.0;                // from grid units of velocity to normalised ones
+  Vec3d corner;                      // of the root's cube, and its
+  double unit_side = 1.0;            // side, as the points have them
   int tile_y = 16, tile_z = 16;      // nodes of a tile; the last in a direction takes the rest too
   int tiles_y = 1, tiles_z = 1;
   int target_low[3] = {0, 0, 0};     // nodes from which targets are interpolated

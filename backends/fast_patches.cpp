@@ -34,7 +34,9 @@ void FarPatches<Real>::set_points(Octree const& tree) {
 
 // What all patches of one spacing need: scale, transforms, symbol.
 template <class Real>
-void FarPatches<Real>::set_grid(Patch<Real>& patch, bool is_root) {
+void FarPatches<Real>::set_grid(Octree const& tree, Patch<Real>& patch, bool is_root) {
+  patch.corner = tree.corner();
+  patch.unit_side = tree.unit_side();
   patch.scale = std::pow(patch.spacing, -decay(kernel_));
   for (int d = 0; d < 3; ++d)
     patch.lines[d] = transforms_.try_emplace(patch.nodes[d], patch.nodes[d]).first->second.view();
@@ -59,7 +61,7 @@ void FarPatches<Real>::add_root_patch(Octree const& tree) {
     patch.target_low[d] = 0;
     patch.target_high[d] = std::min(patch.nodes[d], static_cast<int>(std::ceil(extent[d] / spacing + 2.0 * margin)) + 1);
   }
-  set_grid(patch, true);
+  set_grid(tree, patch, true);
   Range const sources{0, static_cast<long>(tree.sources().size())}, targets{0, static_cast<long>(tree.targets().size())};
   tile_points(tree, patch, {sources}, {targets});
   patches_.push_back(std::move(patch));
@@ -92,7 +94,7 @@ void FarPatches<Real>::add_level_patches(Octree const& tree, int level) {
       patch.target_low[d] = std::max(0, static_cast<int>(nodes_per_box) - margin);
       patch.target_high[d] = std::min(patch.nodes[d], static_cast<int>(std::ceil((m + 1) * nodes_per_box)) + margin);
     }
-    set_grid(patch, false);
+    set_grid(tree, patch, false);
   }
   parallel_for("FarPatches::add_level_patches", static_cast<long>(rectangles.size()), [&](long i) {
     Rectangle const& r = rectangles[i];

@@ -41,7 +41,7 @@ class FarPatches {
  private:
   void add_root_patch(Octree const& tree);
   void add_level_patches(Octree const& tree, int level);
-  void set_grid(Patch<Real>& patch, bool is_root);
+  void set_grid(Octree const& tree, Patch<Real>& patch, bool is_root);
   void tile_points(Octree const& tree, Patch<Real>& patch, std::vector<Range> const& sources,
                    std::vector<Range> const& targets) const;
   std::shared_ptr<SymbolTable<Real> const> symbol(Patch<Real> const& patch, bool is_root);

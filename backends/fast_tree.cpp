@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace asterflow {
@@ -70,11 +71,15 @@ Octree::Octree(ConstPoints sources, ConstPoints targets, OctreeOptions const& op
         low[d] = std::min(low[d], p[d]);
         high[d] = std::max(high[d], p[d]);
       }
-  corner_ = low;
   extent_ = high - low;
   double const widest = std::max({extent_.x, extent_.y, extent_.z});
   side_ = widest > 0.0 ? widest * options.enlargement * (1.0 + 1e-9) : 1.0;
   extent_ = extent_ / side_;
+  int exponent = 0;
+  unit_side_ = std::frexp(side_, &exponent);
+  double const unit = std::ldexp(1.0, exponent);
+  for (int d = 0; d < 3; ++d) origin_[d] = std::abs(low[d]) < 4.0 * unit ? 0.0 : std::floor(low[d] / unit) * unit;
+  corner_ = (low - origin_) * (1.0 / unit);
   first_level_ = options.first_level;
   bool const same = sources.data() == targets.data() && sources.size() == targets.size();
   sort_points(sources, source_keys_, source_order_, sources_);
@@ -97,11 +102,12 @@ void Octree::sort_points(ConstPoints points, std::vector<std::uint64_t>& keys, s
   long const n = static_cast<long>(points.size());
   double const cells = static_cast<double>(1 << key_levels);
   std::vector<KeyedIndex> items(n);
-  auto const normalised = [&](long i) { return (points[i] - corner_) / side_; };
+  double const by_unit = unit_side_ / side_;  // a power of two
+  auto const placed = [&](long i) { return (points[i] - origin_) * by_unit; };
   constexpr long block = 4096;
   parallel_for("Octree::sort_points", (n + block - 1) / block, [&](long i_block) {
     for (long i = i_block * block; i < std::min(n, (i_block + 1) * block); ++i) {
-      Vec3d const p = normalised(i);
+      Vec3d const p = normalised(placed(i));
       auto const cell = [&](double x) {
         return static_cast<std::uint64_t>(std::clamp(x * cells, 0.0, cells - 1.0));
       };
@@ -116,7 +122,7 @@ void Octree::sort_points(ConstPoints points, std::vector<std::uint64_t>& keys, s
     for (long i = i_block * block; i < std::min(n, (i_block + 1) * block); ++i) {
       keys[i] = items[i].key;
       order[i] = items[i].index;
-      sorted[i] = normalised(items[i].index);
+      sorted[i] = placed(items[i].index);
     }
   });
 }

@@ -1,7 +1,8 @@
 #pragma once
-// Adaptive octree over sources and targets. Coordinates are normalised to the unit cube; points are sorted
-// along the Morton curve, so every box owns one range of sources and one of targets. A box with more points
-// than the capacity is refined; boxes that touch a refined box of their own size exist (2:1 balance).
+// Adaptive octree over sources and targets. Points are sorted along the Morton curve, so every box owns one range of
+// sources and one of targets. A box with more points than the capacity is refined; boxes that touch a refined box of
+// their own size exist (2:1 balance). Coordinates are those given up to a power of two, moved only where the points are
+// far from the origin and then by a number with few bits: differences are those of the given points, bit by bit.
 
 #include "base/arrays.hpp"
 
@@ -34,10 +35,12 @@ class Octree {
   // All coordinates finite, at least one source and one target.
   Octree(ConstPoints sources, ConstPoints targets, OctreeOptions const& options);
 
-  Vec3d corner() const { return corner_; }                // of the root, in the units of the points
-  double side() const { return side_; }                   // of the root, in the units of the points
-  PointArray const& sources() const { return sources_; }  // sorted, in [0, 1)
+  double side() const { return side_; }                   // of the root, in the units of the points given
+  PointArray const& sources() const { return sources_; }  // sorted
   PointArray const& targets() const { return targets_; }
+  Vec3d corner() const { return corner_; }                // of the root, in the units of these
+  double unit_side() const { return unit_side_; }         // likewise its side, 0.5 ... 1
+  Vec3d normalised(Vec3d x) const { return (x - corner_) / unit_side_; }  // to the unit cube
   std::vector<std::uint32_t> const& source_order() const { return source_order_; }  // original index of each
   std::vector<std::uint32_t> const& target_order() const { return target_order_; }
   int first_level() const { return first_level_; }
@@ -62,8 +65,8 @@ class Octree {
   void balance();
   void collect_leaves();
 
-  Vec3d corner_, extent_;
-  double side_ = 1.0;
+  Vec3d origin_, corner_, extent_;
+  double side_ = 1.0, unit_side_ = 1.0;
   int first_level_ = 0;
   PointArray sources_, targets_;
   std::vector<std::uint32_t> source_order_, target_order_;
