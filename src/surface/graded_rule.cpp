@@ -60,4 +60,16 @@ void periodic_rule(double centre, double delta, GradedRuleOptions const& options
   for (int k = 0; k < n; ++k) rule.push_back({centre + 2.0 * pi * (k + 0.5) / n, 2.0 * pi / n});
 }
 
+void half_period_rule(double delta, GradedRuleOptions const& options, std::vector<RulePoint>& rule) {
+  constexpr double pi = std::numbers::pi;
+  rule.clear();
+  if (delta > 0.3) {
+    int const n = static_cast<int>(std::ceil(0.5 * (options.wavenumber - 2.0 + 1.6 * options.digits / delta))) + 4;
+    for (int k = 0; k < n; ++k) rule.push_back({pi * (k + 0.5) / n, 2.0 * pi / n});
+    return;
+  }
+  append_graded_rule(0.0, 0.0, pi, delta, options, rule);
+  for (auto& point : rule) point.weight *= 2.0;
+}
+
 }  // namespace asterflow

@@ -25,4 +25,8 @@ void append_graded_rule(double first, double centre, double last, double scale, 
 // centre + i delta: the trapezoid rule where that is cheap, else a graded one.
 void periodic_rule(double centre, double delta, GradedRuleOptions const& options, std::vector<RulePoint>& rule);
 
+// Overwrites `rule` by one on the half period [0, pi] of an even function that is singular at i delta, with the weights of
+// the whole period.
+void half_period_rule(double delta, GradedRuleOptions const& options, std::vector<RulePoint>& rule);
+
 }  // namespace asterflow

@@ -6,6 +6,7 @@
 // [Barnett, Magland & af Klinteberg 2019, SIAM J. Sci. Comput. 41]
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace asterflow {
 
@@ -23,6 +24,16 @@ class InterpolationWindow {
   // distance from x - W / 2 up to the first node. Column i: coefficients, lowest power first.
   using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // [n_coefficient, W]
   Coefficients const& coefficients() const { return coefficients_; }
+
+  // Weights of the W nodes around x, overwritten; returns the first of these nodes. width: W, for the compiler to know.
+  long weigh(int width, double x, double* weights) const {
+    double const start = x - 0.5 * width, node = std::ceil(start), t = 2.0 * (node - start) - 1.0;
+    auto const last = coefficients_.rows() - 1;
+    for (int i = 0; i < width; ++i) weights[i] = coefficients_(last, i);
+    for (auto k = last - 1; k >= 0; --k)
+      for (int i = 0; i < width; ++i) weights[i] = weights[i] * t + coefficients_(k, i);
+    return static_cast<long>(node);
+  }
 
  private:
   double value(double x) const;

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -116,27 +117,33 @@ std::vector<RingMode> analyse_modes(Surface const& surface, AzimuthTransform con
   return modes;
 }
 
-void ModalBoundary::synthesise(std::vector<Mode> const& modes, Points field) const {
-  ASTERFLOW_REQUIRE(field.size() == surface_.size());
-  auto const& grid = surface_.grid();
-  int const n = grid.n_azimuth();
+void add_synthesis(Surface const& surface, AzimuthTransform const& transform, std::vector<RingMode> const& modes,
+                   Points field) {
+  ASTERFLOW_REQUIRE(field.size() == surface.size());
+  auto const& grid = surface.grid();
+  int const n = grid.n_azimuth(), n_ring = grid.n_ring();
   std::vector<double> values(3 * n);
   std::vector<std::complex<double>> coefficients(n / 2 + 1);
-  for (int j = 0; j < n_mode(); ++j) {
+  for (int j = 0; j < n_ring; ++j) {
     for (int c = 0; c < 3; ++c) {
       coefficients.back() = 0.0;
-      for (int m = 0; m < n_mode(); ++m) {
-        std::complex<double> const f(modes[m](c * n_mode() + j, 0), modes[m](c * n_mode() + j, 1));
+      for (int m = 0; m < n_ring; ++m) {
+        std::complex<double> const f(modes[m](c * n_ring + j, 0), modes[m](c * n_ring + j, 1));
         coefficients[m] = c < 2 ? f : f * std::complex(0.0, 1.0);
       }
-      transform_.synthesise(coefficients.data(), values.data() + c * n);
+      transform.synthesise(coefficients.data(), values.data() + c * n);
     }
     for (int k = 0; k < n; ++k) {
       double const c = std::cos(grid.azimuth(k)), s = std::sin(grid.azimuth(k));
-      field[static_cast<std::size_t>(j) * n + k] = surface_.from_polar(
+      field[static_cast<std::size_t>(j) * n + k] += surface.from_polar(
           {values[k], c * values[n + k] - s * values[2 * n + k], s * values[n + k] + c * values[2 * n + k]});
     }
   }
+}
+
+void ModalBoundary::synthesise(std::vector<Mode> const& modes, Points field) const {
+  std::ranges::fill(field, Vec3d{});
+  add_synthesis(surface_, transform_, modes, field);
 }
 
 Eigen::Matrix<double, 6, 1> ModalBoundary::load(Eigen::Matrix2d const& axial, Eigen::Matrix2d const& transverse) {

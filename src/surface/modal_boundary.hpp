@@ -20,6 +20,9 @@ Eigen::Matrix<double, 3, 2> modal_velocity_of_load(int mode, CylindricalPoint x)
 using RingMode = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 // Node values -> modes 0 ... p. transform: of n_azimuth values.
 std::vector<RingMode> analyse_modes(Surface const& surface, AzimuthTransform const& transform, ConstPoints field);
+// And back; adds to the node values.
+void add_synthesis(Surface const& surface, AzimuthTransform const& transform, std::vector<RingMode> const& modes,
+                   Points field);
 
 class ModalBoundary {
  public:

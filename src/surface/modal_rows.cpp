@@ -22,18 +22,6 @@ constexpr double odd_sign[n_odd] = {-1, -1, 1, 1};  // from the factors i of the
 // Radial and azimuthal components of a smooth field have the parity of mode m + 1.
 bool is_odd_in_t(int component, int m) { return ((component > 0) + m) % 2 != 0; }
 
-// Rule on the half circle [0, pi] (weights for the full circle by symmetry), singular at a complex angle i delta.
-void azimuth_rule(double delta, int order, double digits, std::vector<RulePoint>& rule) {
-  rule.clear();
-  int const n_trapezoid = static_cast<int>(std::ceil(0.5 * (order + 1.6 * digits / delta))) + 4;
-  if (delta > 0.3) {
-    for (int k = 0; k < n_trapezoid; ++k) rule.push_back({pi * (k + 0.5) / n_trapezoid, 2.0 * pi / n_trapezoid});
-    return;
-  }
-  append_graded_rule(0.0, 0.0, pi, delta, {digits, order + 2.0}, rule);
-  for (auto& point : rule) point.weight *= 2.0;
-}
-
 // Kernel entries on one ring (position and area vector at phi = 0), times weights: even [n_even, n], odd [n_odd, n].
 void ring_kernel(CylindricalPoint x, Vec3d y, Vec3d area, std::vector<RulePoint> const& rule, double weight,
                  MatrixXd& even, MatrixXd& odd) {
@@ -117,7 +105,7 @@ ModalRowSet ModalRows::integrate(CylindricalPoint target, Singularity const& nea
     Vec3d const y = surface_.to_polar(patch.position), area = surface_.to_polar(patch.area_vector());
     double const gap = std::hypot(target.z - y.x, target.r - y.y), product = target.r * y.y;
     double const delta = product > 0.0 ? 2.0 * std::asinh(0.5 * gap / std::sqrt(product)) : 10.0;
-    azimuth_rule(std::min(delta, 10.0), order_, digits_, azimuth);
+    half_period_rule(std::min(delta, 10.0), {digits_, order_ + 2.0}, azimuth);
     if (delta <= 0.3 || static_cast<int>(azimuth.size()) != trapezoid_size) harmonics(azimuth, order_, cosines, sines);
     trapezoid_size = delta > 0.3 ? static_cast<int>(azimuth.size()) : -1;
     ring_kernel(target, y, area, azimuth, meridian[s].weight, even, odd);

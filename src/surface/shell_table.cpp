@@ -128,15 +128,7 @@ void ShellTable::interpolate_with(Values<Real> const& values, TablePoint const& 
   double weights[3][width];
   long first[3];
   double const position[3] = {point.psi * n_psi_, point.theta * n_theta_, point.phi * n_phi_};
-  auto const& coefficients = window_.coefficients();
-  for (int d = 0; d < 3; ++d) {
-    double const start = position[d] - 0.5 * width, node = std::ceil(start), t = 2.0 * (node - start) - 1.0;
-    first[d] = static_cast<long>(node) + margin_;
-    auto const last = coefficients.rows() - 1;
-    for (int i = 0; i < width; ++i) weights[d][i] = coefficients(last, i);
-    for (auto k = last - 1; k >= 0; --k)
-      for (int i = 0; i < width; ++i) weights[d][i] = weights[d][i] * t + coefficients(k, i);
-  }
+  for (int d = 0; d < 3; ++d) first[d] = window_.weigh(width, position[d], weights[d]) + margin_;
   constexpr int lanes = (3 * width + 7) / 8 * 8;  // whole vectors of (node, component); the rest weighs nothing
   Real sums[lanes] = {};
   auto const n_theta = theta_up_[0].rows();

@@ -5,7 +5,7 @@
 // so psi = 0 is the surface and psi = pi the centre or infinity. In all three the field continues as a periodic function.
 // Components are cylindrical about the polar axis: (axial, radial, azimuthal).
 
-#include "base/vec3.hpp"
+#include "base/arrays.hpp"
 #include "surface/azimuth_transform.hpp"
 #include "surface/interpolation_window.hpp"
 #include "surface/sphere_grid.hpp"
@@ -52,10 +52,28 @@ class ShellTable {
   void interpolate(Values<Real> const& values, TablePoint const& point, double velocity[3]) const;
   std::size_t memory() const;  // bytes of one set of doubles
 
+  // The adjoint of interpolation: on every coefficient of the modes,
+  //   sum_j weight of the coefficient at point j x (f_axial, f_radial, -i f_azimuthal) e^{-i m phi_j};
+  // forces have components along (e_1, e_2, e_3). The modes have rows for as many shells as are wanted; overwrites.
+  struct Collection {  // work space
+    struct Force {
+      long first[3];
+      double psi[16], theta[16], phi[48];  // weights; those of phi times (axial, radial, azimuthal)
+    };
+    std::vector<Force> forces;
+    std::vector<std::vector<std::size_t>> starting;  // [psi] forces whose first node this is
+    std::vector<Eigen::MatrixXd> meridian;           // [mode] [theta, (part, component, psi)]
+  };
+  void collect(std::vector<TablePoint> const& points, ConstPoints forces, std::vector<ShellMode>& modes,
+               Collection& work) const;
+
  private:
   void fill_meridian(int m, ShellMode const& mode, Eigen::MatrixXd& fine) const;
   template <class Real>
   void fill_azimuth(long i_psi, Values<Real>& values) const;
+  void weigh_forces(std::vector<TablePoint> const& points, ConstPoints forces, Collection& work) const;
+  void collect_azimuth(long i_psi, Collection& work) const;
+  void collect_meridian(int m, Eigen::MatrixXd const& fine, ShellMode& mode) const;
   template <int width, class Real>
   void interpolate_with(Values<Real> const& values, TablePoint const& point, double velocity[3]) const;
 
