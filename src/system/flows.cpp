@@ -38,20 +38,26 @@ SceneFlows make_flows(Scene const& scene) {
   for (auto const& body : scene.bodies) flows.bodies.push_back(library.get(body.shape, body.order, Side::exterior));
   if (scene.run.interactions == Interactions::confined && scene.periphery)
     flows.periphery = library.get(scene.periphery->shape, scene.periphery->order, Side::interior);
+  bool const has_fibers = !scene.fibers.empty() || !scene.asters.empty();
+  if (flows.periphery && has_fibers && scene.run.images != ImagesBehind::nothing) {
+    Surface const& wall = flows.periphery->surface();
+    flows.near_periphery = make_screened_forces(wall, image_reach(wall, Side::interior), scene.run.accuracy);
+  }
   return flows;
 }
 
-RadiationOptions radiation_options(Scene const& scene) {
+RadiationOptions radiation_options(Scene const& scene, SceneFlows const& flows) {
   return {.viscosity = scene.fluid.viscosity,
           .evaluator = scene.run.evaluator,
           .accuracy = scene.run.evaluator_accuracy,
           .has_images_behind_periphery = scene.run.images != ImagesBehind::nothing,
-          .has_images_in_bodies = scene.run.images == ImagesBehind::everything};
+          .has_images_in_bodies = scene.run.images == ImagesBehind::everything,
+          .near_periphery = flows.near_periphery};
 }
 
 std::unique_ptr<Radiation> make_radiation(Scene const& scene, SceneFlows const& flows) {
   if (scene.run.interactions == Interactions::local) return nullptr;
-  return std::make_unique<Radiation>(flows.bodies, flows.periphery, radiation_options(scene));
+  return std::make_unique<Radiation>(flows.bodies, flows.periphery, radiation_options(scene, flows));
 }
 
 Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double viscosity) {

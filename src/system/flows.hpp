@@ -9,11 +9,12 @@ namespace asterflow {
 struct SceneFlows {
   std::vector<Radiation::Flow> bodies;
   Radiation::Flow periphery;  // null unless the scene is confined
+  std::shared_ptr<ScreenedForces const> near_periphery;  // null unless there are fibers with images behind it
 };
 
 SceneFlows make_flows(Scene const& scene);
 
-RadiationOptions radiation_options(Scene const& scene);
+RadiationOptions radiation_options(Scene const& scene, SceneFlows const& flows);
 
 // How the objects of a scene exchange their flows; null in a `local` scene.
 std::unique_ptr<Radiation> make_radiation(Scene const& scene, SceneFlows const& flows);

@@ -42,8 +42,13 @@ Vector6 rotated(Matrix3 const& rotation, Vector6 const& v) {
 
 Radiation::Radiation(std::vector<Flow> body_flows, Flow periphery_flow, RadiationOptions options)
     : bodies_(std::move(body_flows)), periphery_(std::move(periphery_flow)), options_(std::move(options)) {
-  images_.resize(bodies_.size() + (periphery_ ? 1 : 0));
-  for (Flow const& body : bodies_) mobilities_.push_back(body->resistance().inverse());
+  for (Flow const& body : bodies_) {
+    mobilities_.push_back(body->resistance().inverse());
+    images_.emplace_back(body->surface(), Side::exterior, image_reach(body->surface(), Side::exterior));
+  }
+  if (periphery_)
+    images_.emplace_back(periphery_->surface(), Side::interior, image_reach(periphery_->surface(), Side::interior),
+                         options_.near_periphery);
 }
 
 Radiation::~Radiation() = default;
@@ -99,10 +104,9 @@ void Radiation::plan_fibers(FiberNodes const& fibers) {
   if (rough_stokeslets_) rough_stokeslets_->set_points(fibers.positions, nodes_);
   if (options_.has_images_in_bodies)
     for (std::size_t b = 0; b < bodies_.size(); ++b)
-      images_[b].place(bodies_[b]->surface(), Side::exterior, poses_[b], fibers.positions, fibers.weights,
-                       first_fiber_node_);
+      images_[b].place(poses_[b], fibers.positions, fibers.weights, first_fiber_node_);
   if (periphery_ && options_.has_images_behind_periphery)
-    images_.back().place(periphery_->surface(), Side::interior, {}, fibers.positions, fibers.weights, first_fiber_node_);
+    images_.back().place({}, fibers.positions, fibers.weights, first_fiber_node_);
   close_nodes_.find(fibers.positions, fibers.weights, first_fiber_node_);
   strengths_.resize(n_fiber_nodes_);
 }
@@ -140,19 +144,27 @@ PointArray Radiation::periphery_wall_velocity(ConstPoints incident) const {
   return wall;
 }
 
+void Radiation::add_images(bool is_rough, Points received) const {
+  ConstPoints const nodes = nodes_;
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    bool const takes_samples = is_rough || i < bodies_.size();  // at the nodes of the wall itself
+    std::size_t const n = takes_samples ? nodes.size() : first_.back();
+    if (is_rough || options_.accuracy >= single_precision)
+      images_[i].add_velocity<float>(strengths_, nodes.first(n), received.first(n));
+    else
+      images_[i].add_velocity<double>(strengths_, nodes.first(n), received.first(n));
+    if (!takes_samples) images_[i].add_velocity_at_wall(strengths_, nodes.subspan(n), received.subspan(n));
+    images_[i].add_own_resolution(strengths_, nodes_, received);
+  }
+}
+
 // Sum over all nodes of all fibers, less each fiber's sum over its own nodes: a fiber's own flow is its local drag.
 void Radiation::add_fibers(ConstPoints force_density, Exchange kind, Points received) {
   double const scale = 1.0 / options_.viscosity;
   for (std::size_t i = 0; i < n_fiber_nodes_; ++i) strengths_[i] = (scale * weights_[i]) * force_density[i];
   bool const is_rough = kind == Exchange::rough && rough_stokeslets_;
   (is_rough ? rough_stokeslets_ : stokeslets_)->add_velocity(strengths_, received);
-  for (WallImages const& images : images_) {
-    if (is_rough || options_.accuracy >= single_precision)
-      images.add_velocity<float>(strengths_, nodes_, received);
-    else
-      images.add_velocity<double>(strengths_, nodes_, received);
-    images.add_own_resolution(strengths_, nodes_, received);
-  }
+  add_images(is_rough, received);
   close_nodes_.add_correction(strengths_, received);
   subtract_own_sums(ConstPoints(nodes_).first(n_fiber_nodes_), first_fiber_node_, strengths_, received);
 }

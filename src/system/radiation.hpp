@@ -35,6 +35,7 @@ struct RadiationOptions {
   std::string evaluator = "auto";
   double accuracy = 1e-6;  // of the pair sums
   bool has_images_behind_periphery = true, has_images_in_bodies = true;
+  std::shared_ptr<ScreenedForces const> near_periphery = nullptr;  // what its nodes take of forces close to it; null: samples
 };
 
 // As accurate as asked for, or at a fraction of the cost: for the inside of a preconditioner.
@@ -96,6 +97,7 @@ class Radiation {
   Vector6 motion_at_same_force(std::size_t body, Vector6 const& motion, ConstPoints before, ConstPoints now) const;
   PointArray periphery_wall_velocity(ConstPoints incident) const;
   void add_fibers(ConstPoints force_density, Exchange kind, Points received);
+  void add_images(bool is_rough, Points received) const;
   void add_bodies_to_each_other(std::vector<Vector6> const& motions, ConstPoints incident, Exchange kind, Points received);
   void add_bodies_to_others(std::vector<Vector6> const& motions, Exchange kind, Points received);
   void add_periphery(ConstPoints incident, Exchange kind, Points received);

@@ -18,7 +18,7 @@ StoredFlow::StoredFlow(Scene const& scene, SceneFlows const& flows, Frame const&
   if (frame.time == 0.0)
     throw SceneError(fmt::format("{}: the state at t = 0 was stored before the first solve; choose a later --time",
                                  scene.file));
-  radiation_ = std::make_unique<Radiation>(flows.bodies, flows.periphery, radiation_options(scene));
+  radiation_ = std::make_unique<Radiation>(flows.bodies, flows.periphery, radiation_options(scene, flows));
 
   auto const positions = points_of(frame, "body/position");
   auto const orientations = orientations_of(frame);

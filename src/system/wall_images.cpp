@@ -3,8 +3,8 @@
 #include "base/parallel.hpp"
 #include "kernels/stokeslet.hpp"
 #include "surface/dirichlet_flow.hpp"
+#include "surface/plane_image.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,90 +13,67 @@ namespace asterflow {
 namespace {
 
 constexpr double negligible = 1e-3;  // nearness
-constexpr double closest = 0.02;     // least distance over w: forces may lie on a body
-
-// As many targets as fill a vector register are summed at once.
-template <class Real>
-constexpr long n_lane = 64 / sizeof(Real);
-template <class Real>
-using Lanes = Eigen::Array<Real, n_lane<Real>, 1>;
-template <class Real>
-struct LanesOfVectors {
-  Lanes<Real> x = Lanes<Real>::Zero(), y = Lanes<Real>::Zero(), z = Lanes<Real>::Zero();
-};
-
-template <class Real>
-Lanes<Real> dot(Vec3<Real> a, LanesOfVectors<Real> const& r) {
-  return a.x * r.x + a.y * r.y + a.z * r.z;
-}
-
-// Targets first ... first + count - 1, the last one repeated.
-template <class Real>
-LanesOfVectors<Real> gather(ConstPoints targets, long first, long count) {
-  LanesOfVectors<Real> x;
-  for (int i = 0; i < n_lane<Real>; ++i) {
-    Vec3d const target = targets[first + std::min<long>(i, count - 1)];
-    x.x[i] = Real(target.x), x.y[i] = Real(target.y), x.z[i] = Real(target.z);
-  }
-  return x;
-}
-
-template <class Real>
-Vec3<Real> to(Vec3d v) {
-  return {Real(v.x), Real(v.y), Real(v.z)};
-}
-
-// The image of the force f at the distance d (um) from the wall.
-template <class Real>
-struct PointImage {
-  Vec3<Real> position, f, a, e;
-  Real d, twice_d_f_e;
-
-  PointImage(Vec3d force, Vec3d foot, Vec3d normal, double distance)
-      : position(to<Real>(foot - distance * normal)), f(to<Real>(force)),
-        a(to<Real>(force - (2.0 * asterflow::dot(force, normal)) * normal)), e(to<Real>(normal)),
-        d(Real(distance)), twice_d_f_e(Real(2.0 * distance * asterflow::dot(force, normal))) {}
-
-  // u += 8 pi x flow at x.
-  void add(LanesOfVectors<Real> const& x, LanesOfVectors<Real>& u) const {
-    LanesOfVectors<Real> const r{x.x - position.x, x.y - position.y, x.z - position.z};
-    Lanes<Real> const s = (r.x * r.x + r.y * r.y + r.z * r.z).rsqrt(), s2 = s * s, s3 = s * s2;
-    Lanes<Real> const r_a = dot(a, r), twice = (d + d) * s3, along_a = (d - dot(e, r)) * twice, along_e = r_a * twice;
-    Lanes<Real> const along_r = s3 * (twice_d_f_e - dot(f, r)) - (Real(3) * s2) * (along_a * r_a);
-    u.x += along_r * r.x + a.x * along_a + e.x * along_e - f.x * s;
-    u.y += along_r * r.y + a.y * along_a + e.y * along_e - f.y * s;
-    u.z += along_r * r.z + a.z * along_a + e.z * along_e - f.z * s;
-  }
-};
+constexpr double closest = 1e-3;     // least distance over w: forces may lie on the wall
+constexpr double deepest = 1.28;     // over reach: where nearness is negligible
 
 template <class Real>
 void scatter(LanesOfVectors<Real> const& u, long first, long count, Points velocity) {
   for (int i = 0; i < count; ++i) velocity[first + i] += Stokeslet::prefactor * Vec3d{double(u.x[i]), double(u.y[i]), double(u.z[i])};
 }
 
+double smallest_radius_of_curvature(Surface const& wall) {
+  constexpr double step = 1e-3;
+  double largest = 0.0;  // curvature along both grid lines
+  for (double const t : wall.grid().polar_angles())
+    for (int k = 0; k < wall.grid().n_azimuth(); ++k) {
+      double const phi = wall.grid().azimuth(k);
+      SurfacePatch const at = wall.patch(t, phi);
+      for (auto const& [dt, dphi] : {std::pair{step, 0.0}, std::pair{0.0, step}}) {
+        SurfacePatch const next = wall.patch(t + dt, phi + dphi);
+        largest = std::max(largest, norm(normalized(next.area_vector()) - normalized(at.area_vector())) /
+                                        norm(next.position - at.position));
+      }
+    }
+  return 1.0 / largest;
+}
+
 }  // namespace
 
-void WallImages::place(Surface const& wall, Side side, RigidPose const& pose, ConstPoints positions, ConstVector weights,
-                       std::vector<std::size_t> const& first) {
-  // Forces farther than 0.75 spacings are resolved to better than what curvature costs those at 0.2 spacings.
-  // Images stay well within a thin body.
-  double const size = wall.shape().size(), smallest = size / wall.shape().aspect_ratio();
-  double const reach = std::min(0.75 * std::numbers::pi * size / wall.order(), 0.6 * smallest);
-  is_body_ = side == Side::exterior;
-  centre_ = pose.point(wall.shape().centre());
+// Nodes that are h apart resolve a force at the distance d to exp(-pi d / h), curvature leaves d / (2 radius) of one with an
+// image. Images stay well within a thin body; forces, on the near side of a cell's axis.
+double image_reach(Surface const& wall, Side side) {
+  double const size = wall.shape().size(), spacing = std::numbers::pi * size / wall.order();
+  if (side == Side::exterior) return std::min(spacing, 0.6 * size / wall.shape().aspect_ratio());
+  return std::min(1.5 * spacing, 0.45 * smallest_radius_of_curvature(wall));
+}
+
+std::shared_ptr<ScreenedForces const> make_screened_forces(Surface const& periphery, double reach, double accuracy) {
+  if (!periphery.axisymmetric()) return nullptr;
+  return std::make_shared<ScreenedForces const>(periphery, deepest * reach, accuracy);
+}
+
+WallImages::WallImages(Surface const& wall, Side side, double reach, std::shared_ptr<ScreenedForces const> screened)
+    : wall_(&wall), is_body_(side == Side::exterior), reach_(reach), screened_(std::move(screened)) {}
+
+void WallImages::place(RigidPose const& pose, ConstPoints positions, ConstVector weights, std::vector<std::size_t> const& first) {
+  centre_ = pose.point(wall_->shape().centre());
   double const outwards = is_body_ ? 1.0 : -1.0;
   std::vector<Image> all(positions.size());
   parallel_for("WallImages::place", static_cast<long>(first.size()) - 1, [&](long fiber) {
     for (std::size_t i = first[fiber]; i < first[fiber + 1]; ++i) {
-      ClosestPoint const at = wall.shape().closest_point(pose.rotation.transpose() * (positions[i] - pose.position));
+      ClosestPoint const at = wall_->shape().closest_point(pose.rotation.transpose() * (positions[i] - pose.position));
       double const distance = std::max(outwards * at.distance, closest * weights[i]);
-      all[i] = {i, first[fiber], first[fiber + 1], pose.point(at.position), outwards * (pose.rotation * at.normal),
-                std::exp(-std::pow(distance / reach, 8)), distance, std::max(distance, 0.5 * weights[i])};
+      all[i] = {i, first[fiber], first[fiber + 1], positions[i], pose.point(at.position), at.direction,
+                outwards * (pose.rotation * at.normal), std::exp(-std::pow(distance / reach_, 8)), distance,
+                std::max(distance, 0.5 * weights[i])};
     }
   });
   images_.clear();
+  places_.clear();
   std::copy_if(all.begin(), all.end(), std::back_inserter(images_),
                [](Image const& image) { return image.nearness > negligible; });
+  if (screened_)
+    for (Image const& image : images_) places_.push_back(screened_->locate(image.direction, image.distance));
 }
 
 WallImages::Moments WallImages::moments(ConstPoints strengths) const {
@@ -130,7 +107,7 @@ template <class Real>
 void WallImages::add_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const {
   if (images_.empty()) return;
   if (is_body_) add_centre(strengths, targets, velocity);
-  std::vector<PointImage<Real>> images;
+  std::vector<PlaneImage<Real>> images;
   for (Image const& image : images_)
     images.emplace_back(image.nearness * strengths[image.source], image.foot, image.normal, image.distance);
   auto const n = static_cast<long>(targets.size());
@@ -146,11 +123,23 @@ void WallImages::add_velocity(ConstPoints strengths, ConstPoints targets, Points
 template void WallImages::add_velocity<double>(ConstPoints, ConstPoints, Points) const;
 template void WallImages::add_velocity<float>(ConstPoints, ConstPoints, Points) const;
 
+void WallImages::add_velocity_at_wall(ConstPoints strengths, ConstPoints wall_nodes, Points velocity) const {
+  if (!screened_) return add_velocity<double>(strengths, wall_nodes, velocity);
+  PointArray forces;
+  for (Image const& image : images_) forces.push_back(image.nearness * strengths[image.source]);
+  parallel_for("WallImages::samples", static_cast<long>(wall_nodes.size()), [&](long i) {
+    Vec3d sampled;
+    for (std::size_t j = 0; j < forces.size(); ++j) sampled += Stokeslet::velocity(wall_nodes[i] - images_[j].position, forces[j]);
+    velocity[i] -= sampled;
+  });
+  screened_->add_velocity(places_, forces, velocity);
+}
+
 void WallImages::add_own_resolution(ConstPoints strengths, ConstPoints positions, Points velocity) const {
   for (Image const& image : images_) {
     if (image.resolved == image.distance) continue;
     Vec3d const f = image.nearness * strengths[image.source];
-    PointImage<double> const resolved(f, image.foot, image.normal, image.resolved),
+    PlaneImage<double> const resolved(f, image.foot, image.normal, image.resolved),
         as_it_is(-f, image.foot, image.normal, image.distance);
     auto const end = static_cast<long>(image.end);
     for (auto first = static_cast<long>(image.first); first < end; first += n_lane<double>) {

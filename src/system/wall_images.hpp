@@ -6,7 +6,10 @@
 // [Blake 1971, Eq. 9], at the mirrored point,
 //   u = -G f - 2 d (a . grad) G e + d^2 lap G a,   a = f - 2 (f . e) e,
 // G the Stokeslet, e the normal into the fluid, and the nodes see only what the curvature of the wall leaves of the force.
-// Images fade out where forces are farther than the spacing of the nodes.
+// Images fade out where the nodes resolve forces by themselves (image_reach).
+//
+// The nodes of an axisymmetric periphery receive what is left as its projection onto what they resolve instead of samples
+// (surface/screened_forces.hpp); samples will do inside a preconditioner.
 //
 // Images in a body are joined by a force, a torque and a stresslet at its centre that make up for theirs: load and first
 // moment of the body remain those that its nodes show.
@@ -15,7 +18,10 @@
 // were at the distance max(d, w / 2).
 
 #include "base/rigid.hpp"
+#include "surface/screened_forces.hpp"
 #include "surface/surface.hpp"
+
+#include <memory>
 
 namespace asterflow {
 
@@ -23,11 +29,14 @@ enum class Side;
 
 class WallImages {
  public:
-  // The fluid is on that side of the wall, whose frame is at `pose`.
+  // The fluid is on that side of the wall, to which a reference is kept. Images fade out where forces are `reach` (um) away.
+  // screened: of this wall and reach; null: nodes take samples.
+  WallImages(Surface const& wall, Side side, double reach, std::shared_ptr<ScreenedForces const> screened = nullptr);
+
+  // The frame of the wall is at `pose`.
   // positions [n] um of forces and the lengths `weights` [n] um that they stand for; fiber i owns [first[i], first[i + 1]).
   // Overwrites.
-  void place(Surface const& wall, Side side, RigidPose const& pose, ConstPoints positions, ConstVector weights,
-             std::vector<std::size_t> const& first);
+  void place(RigidPose const& pose, ConstPoints positions, ConstVector weights, std::vector<std::size_t> const& first);
 
   std::size_t size() const { return images_.size(); }
   std::size_t memory() const { return images_.capacity() * sizeof(Image); }  // bytes
@@ -36,13 +45,17 @@ class WallImages {
   // Real: double, or float for the inside of a preconditioner.
   template <class Real>
   void add_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const;
+  // velocity [node] += flow of the images at the wall's own nodes, and of the forces what projection changes of its samples.
+  void add_velocity_at_wall(ConstPoints strengths, ConstPoints wall_nodes, Points velocity) const;
   // velocity [n] at the forces += what a fiber feels of its own images, less that flow.
   void add_own_resolution(ConstPoints strengths, ConstPoints positions, Points velocity) const;
 
  private:
   struct Image {
     std::size_t source, first, end;  // of its fiber
+    Vec3d position;   // um, of the force
     Vec3d foot;       // um, on the wall
+    Vec3d direction;  // of the foot, in the frame of the wall
     Vec3d normal;     // e
     double nearness;  // factor that fades images out, 0 to 1
     double distance;  // d, um
@@ -56,9 +69,19 @@ class WallImages {
   Moments moments(ConstPoints strengths) const;
   void add_centre(ConstPoints strengths, ConstPoints targets, Points velocity) const;
 
-  bool is_body_ = false;
+  Surface const* wall_;
+  bool is_body_;
+  double reach_;  // um, where images fade out
   Vec3d centre_;  // um, of a body
   std::vector<Image> images_;
+  std::shared_ptr<ScreenedForces const> screened_;
+  std::vector<TablePoint> places_;  // [image]
 };
+
+// Reach that suits the nodes and the curvature of the wall, um.
+double image_reach(Surface const& wall, Side side);
+
+// Of a periphery; null where it is not axisymmetric.
+std::shared_ptr<ScreenedForces const> make_screened_forces(Surface const& periphery, double reach, double accuracy);
 
 }  // namespace asterflow

@@ -1,5 +1,4 @@
-// Point forces close to the cortex and to a body. The exact answer comes from reciprocity: g . u(x) of a force f at y is
-// f . u(y) of a force g at x, and the flow of a force far from the cortex is resolved everywhere, close to the cortex too.
+// Point forces close to a plane wall and to a body; close to the cortex: test_screened_forces.cpp.
 
 #include "system/radiation.hpp"
 
@@ -19,38 +18,6 @@ Radiation::Flow cell(int order) {
   return std::make_shared<DirichletFlow const>(Surface(make_shape(spec), order), Side::interior, 1e-8);
 }
 
-// Velocity at x of the force f at y, in the cell.
-Vec3d velocity(Radiation::Flow const& cell, Vec3d x, Vec3d y, Vec3d f) {
-  Radiation radiation({}, cell, {.viscosity = viscosity, .evaluator = "direct", .accuracy = 1e-12});
-  PointArray const source{y}, density{f}, target{x};
-  std::vector<double> const weights{1.0};
-  std::vector<std::size_t> const first{0, 1};
-  radiation.set_geometry({source, weights, &first}, {});
-  PointArray received(radiation.nodes().size()), nothing(radiation.nodes().size()), u(1);
-  radiation.exchange(density, {}, {}, nothing, received);
-  radiation.add_velocity(density, {}, received, target, u);
-  return u[0];
-}
-
-// Largest error of the flow at a distant point, relative to that of the same force without a cell.
-double screening_error(Radiation::Flow const& cell, double distance) {
-  Vec3d const x{-8, -3, 2};
-  double worst = 0.0;
-  for (Vec3d const place : {Vec3d{0.4, 0.7, 0.35}, Vec3d{0, 0.2, -1}}) {
-    Vec3d const d = normalized(place), wall{25 * d.x, 15 * d.y, 15 * d.z};
-    Vec3d const n = normalized(Vec3d{wall.x / 625, wall.y / 225, wall.z / 225}), y = wall - distance * n;
-    for (Vec3d const f : {n, normalized(cross(n, Vec3d{0.3, 1, 0.2}))}) {
-      Vec3d const u = velocity(cell, x, y, f);
-      for (int k = 0; k < 3; ++k) {
-        Vec3d g;
-        g[k] = 1.0;
-        worst = std::max(worst, std::abs(u[k] - dot(f, velocity(cell, y, x, g))) * 8 * M_PI * viscosity * norm(x - y));
-      }
-    }
-  }
-  return worst;
-}
-
 // A wall that is nearly plane: a sphere of radius 1e5 um, whose inside is x < 0 at the origin.
 Surface plane() {
   ShapeSpec spec;
@@ -62,18 +29,11 @@ Vec3d const origin{1e5, 0, 0};
 
 }  // namespace
 
-TEST(WallImages, screen_forces_at_any_distance_from_the_cortex) {
-  auto const flow = cell(20);
-  // Curvature leaves d / R of a force to be resolved by nodes that are h = pi 25 / 20 = 3.9 um apart: largest where d
-  // is about h / 5. Without images 0.3 remains at 0.1 to 0.5 um.
-  EXPECT_LT(screening_error(flow, 0.02), 1e-3);
-  EXPECT_LT(screening_error(flow, 0.6), 6e-3);
-}
-
 TEST(WallImages, keep_a_plane_wall_at_rest) {
   PointArray const source{origin + Vec3d{-0.3, 0.1, 0.2}}, strength{{0.4, -0.7, 0.9}};
-  WallImages images;
-  images.place(plane(), Side::interior, {}, source, std::vector{0.1}, {0, 1});
+  Surface const wall = plane();
+  WallImages images(wall, Side::interior, image_reach(wall, Side::interior));
+  images.place({}, source, std::vector{0.1}, {0, 1});
   for (double const r : {0.0, 0.1, 1.0, 10.0}) {
     PointArray const target{origin + Vec3d{-0.5e-5 * r * r, r, 0.3 * r}};
     PointArray u(1);
@@ -87,9 +47,10 @@ TEST(WallImages, keep_a_plane_wall_at_rest) {
 
 TEST(WallImages, of_a_fiber_act_on_it_from_no_closer_than_it_is_resolved) {
   PointArray const near{origin + Vec3d{-0.01, 0, 0}}, far{origin + Vec3d{-0.2, 0, 0}}, strength{{0.4, -0.7, 0.9}};
-  WallImages close, resolved;
-  close.place(plane(), Side::interior, {}, near, std::vector{0.4}, {0, 1});
-  resolved.place(plane(), Side::interior, {}, far, std::vector{0.4}, {0, 1});
+  Surface const wall = plane();
+  WallImages close(wall, Side::interior, 1e3), resolved(wall, Side::interior, 1e3);
+  close.place({}, near, std::vector{0.4}, {0, 1});
+  resolved.place({}, far, std::vector{0.4}, {0, 1});
   PointArray felt(1), expected(1);
   close.add_velocity<double>(strength, near, felt);
   close.add_own_resolution(strength, near, felt);
@@ -98,8 +59,9 @@ TEST(WallImages, of_a_fiber_act_on_it_from_no_closer_than_it_is_resolved) {
 }
 
 TEST(WallImages, are_not_made_of_distant_forces) {
-  WallImages images;
-  images.place(cell(20)->surface(), Side::interior, {}, PointArray{{0, 0, 0}, {5, 0, 0}}, std::vector{1.0, 1.0}, {0, 2});
+  auto const flow = cell(20);
+  WallImages images(flow->surface(), Side::interior, image_reach(flow->surface(), Side::interior));
+  images.place({}, PointArray{{0, 0, 0}, {5, 0, 0}}, std::vector{1.0, 1.0}, {0, 2});
   EXPECT_EQ(images.size(), 0u);  // nodes of the cell are 4 um apart
 }
 
@@ -108,8 +70,8 @@ TEST(WallImages, stay_within_a_thin_body) {
   spec.kind = ShapeSpec::Kind::ellipsoid;
   spec.semi_axes = {3, 0.3, 0.3};
   Surface const rod(make_shape(spec), 6);  // nodes 1.6 um apart
-  WallImages images;
-  images.place(rod, Side::exterior, {}, PointArray{{0, 1.0, 0}, {0, 0.4, 0}}, std::vector{0.1, 0.1}, {0, 2});
+  WallImages images(rod, Side::exterior, image_reach(rod, Side::exterior));
+  images.place({}, PointArray{{0, 1.0, 0}, {0, 0.4, 0}}, std::vector{0.1, 0.1}, {0, 2});
   EXPECT_EQ(images.size(), 1u);  // of the force at 0.1 um: that of the one at 0.7 um would lie beyond the rod
 }
 
