@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import re
 import resource
 import subprocess
 import time
@@ -167,6 +168,37 @@ class Run(SceneTest):
         self.assertIn("asterflow flow", result.stderr)
         with h5py.File(self.trajectory) as file:
             self.assertGreaterEqual(len(file["time"]), 1)
+
+
+    def stopped_by(self, scene, *names):
+        """Text of a run that what it names has stopped; the state just before is stored."""
+        self.scene.write_text(scene)
+        result = subprocess.run([ASTERFLOW, "run", self.scene, "-o", self.out], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        for name in names:
+            self.assertIn(name, result.stderr)
+        stopped = float(re.search(r"t = ([\d.e-]+) s", result.stderr)[1])
+        with h5py.File(self.trajectory) as file:
+            self.assertGreater(stopped, 0.0)
+            self.assertAlmostEqual(float(file["time"][-1]), stopped, delta=1e-5 * stopped)  # the message has 6 digits
+            frames = file["frames"]
+            return frames[sorted(frames)[-1]]["body/position"][0, 0]
+
+    def test_a_fiber_pushed_through_the_cortex_is_named_and_the_state_kept(self):
+        fiber = """
+[[fiber]]
+body = "ball"
+position = [2.0, 0.0, 0.0]
+length = 1.9
+minus_end = "clamped"
+"""
+        x = self.stopped_by(CELL.replace("3.0, 0.0", "300.0, 0.0").replace("1e-3", "1e-2\nmin_time_step = 1e-4") + fiber,
+                            '[[fiber]] #1 on body "ball" reaches outside the periphery')
+        self.assertAlmostEqual(x, 0.6, delta=0.02)  # its plus end is then at the cortex
+
+    def test_a_body_that_touches_the_cortex_is_named_and_the_state_kept(self):
+        scene = CELL.replace("confined", "local").replace("3.0, 0.0", "300.0, 0.0")
+        self.assertAlmostEqual(self.stopped_by(scene, 'body "ball" touches the periphery'), 2.5, delta=1e-3)
 
 
 class Observe(SceneTest):
