@@ -47,7 +47,8 @@ def draw_plane(axis, flow, limit=1.0):
 
 
 def draw_space(axis, run, time, semi_axes=(25.0, 15.0, 15.0), radius=5.0, limit=1.0):
-    """Three-dimensional view of the state next to `time` (s): fibers coloured by tension, PNC, cortex as a net."""
+    """Three-dimensional view of the state next to `time` (s): fibers coloured by tension, PNC, cortex as a net. For a dark
+    background. Returns the time stamp."""
     with h5py.File(run / "trajectory.h5") as file:
         index = int(np.argmin(np.abs(file["time"][:] - time)))
         frame = file[f"frames/{index:06d}"]
@@ -63,11 +64,14 @@ def draw_space(axis, run, time, semi_axes=(25.0, 15.0, 15.0), radius=5.0, limit=
     sphere = np.array([np.cos(v), np.sin(v) * np.cos(u), np.sin(v) * np.sin(u)])
     axis.plot_wireframe(*(sphere * np.reshape(semi_axes, (3, 1, 1))), color="white", linewidth=0.2)
     axis.plot_surface(*(sphere * radius + np.reshape(centre, (3, 1, 1))), color="0.8")
-    axis.set(xlim=(-25, 25), ylim=(-15, 15), zlim=(-15, 15), title=time_stamp(stamp))
+    axis.set(xlim=(-25, 25), ylim=(-15, 15), zlim=(-15, 15))
     axis.view_init(elev=18, azim=-75)
-    axis.set_box_aspect((50, 30, 30), zoom=1.2)
-    axis.set_facecolor("0.25")
+    axis.set_box_aspect((50, 30, 30), zoom=1.75)
     axis.set_axis_off()
+    axis.patch.set_visible(False)
+    for part in axis.collections:
+        part.set_clip_on(False)  # the cell is longer than the square that it is given
+    return time_stamp(stamp)
 
 
 def draw_course(axis, tables, labels=None, colors=("tab:blue", "tab:red")):

@@ -14,7 +14,9 @@ def draw_mechanism(study, runs, title):
     figure.suptitle(f"{title}, {study.options.fibers} microtubules")
     grid = figure.add_gridspec(2, 6)
     times = study.times(runs[0])
-    draw_space(figure.add_subplot(grid[0, :3], projection="3d"), runs[0], times[-1])
+    background = figure.add_subplot(grid[0, :3], facecolor="0.25", xticks=[], yticks=[])
+    stamp = draw_space(figure.add_subplot(grid[0, :3], projection="3d"), runs[0], times[-1])
+    background.text(0.02, 0.04, stamp, color="white", transform=background.transAxes, fontsize=9)
     draw_course(figure.add_subplot(grid[0, 3:]), tables, [f"seed {seed}" for seed in study.options.seeds])
     for i, part in enumerate((0.08, 0.5, 1.0)):
         with study.flow(runs[0], part * times[-1]) as flow:

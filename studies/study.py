@@ -23,6 +23,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import numpy as np
+from PIL import Image
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 SCENES = REPOSITORY / "scenes"
@@ -124,7 +125,10 @@ class Study:
     def finish(self, picture):
         """Saves the picture and the records."""
         path = self.folder / f"{self.figure}.png"
-        picture.savefig(path, dpi=90, pil_kwargs={"optimize": True})
+        picture.savefig(path, dpi=90)
+        with Image.open(path) as drawn:
+            few_colours = drawn.convert("RGB").quantize(256, dither=Image.Dither.NONE)  # half the size
+        few_colours.save(path, optimize=True)
         settings = {"fibers": self.options.fibers, "seeds": self.options.seeds, "quick": self.options.quick,
                     "set": self.options.set}
         (self.folder / f"{self.figure}.json").write_text(
