@@ -3,39 +3,10 @@
 // into the fluid, force and image together,
 //   u = G f - G' f - 2 d (a . grad) G' e + d^2 lap G' a,   a = f - 2 (f . e) e,
 // G the Stokeslet of viscosity 1 at the force, G' at the mirrored point, vanish on the wall.
-// As many points as fill a vector register are taken at once.
 
-#include "base/arrays.hpp"
-
-#include <Eigen/Core>
-#include <algorithm>
+#include "base/lanes.hpp"
 
 namespace asterflow {
-
-template <class Real>
-inline constexpr long n_lane = 64 / sizeof(Real);
-template <class Real>
-using Lanes = Eigen::Array<Real, n_lane<Real>, 1>;
-template <class Real>
-struct LanesOfVectors {
-  Lanes<Real> x = Lanes<Real>::Zero(), y = Lanes<Real>::Zero(), z = Lanes<Real>::Zero();
-};
-
-template <class Real>
-Lanes<Real> dot(Vec3<Real> a, LanesOfVectors<Real> const& r) {
-  return a.x * r.x + a.y * r.y + a.z * r.z;
-}
-
-// points[first ... first + count - 1], the last one repeated.
-template <class Real>
-LanesOfVectors<Real> gather(ConstPoints points, long first, long count) {
-  LanesOfVectors<Real> x;
-  for (int i = 0; i < n_lane<Real>; ++i) {
-    Vec3d const point = points[first + std::min<long>(i, count - 1)];
-    x.x[i] = Real(point.x), x.y[i] = Real(point.y), x.z[i] = Real(point.z);
-  }
-  return x;
-}
 
 template <class Real>
 class PlaneImage {

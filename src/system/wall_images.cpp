@@ -4,6 +4,7 @@
 #include "kernels/stokeslet.hpp"
 #include "surface/dirichlet_flow.hpp"
 #include "surface/plane_image.hpp"
+#include "system/stokeslet_lanes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +16,6 @@ namespace {
 constexpr double negligible = 1e-3;  // nearness
 constexpr double closest = 1e-3;     // least distance over w: forces may lie on the wall
 constexpr double deepest = 1.28;     // over reach: where nearness is negligible
-
-template <class Real>
-void scatter(LanesOfVectors<Real> const& u, long first, long count, Points velocity) {
-  for (int i = 0; i < count; ++i) velocity[first + i] += Stokeslet::prefactor * Vec3d{double(u.x[i]), double(u.y[i]), double(u.z[i])};
-}
 
 double smallest_radius_of_curvature(Surface const& wall) {
   constexpr double step = 1e-3;
@@ -116,7 +112,7 @@ void WallImages::add_velocity(ConstPoints strengths, ConstPoints targets, Points
     auto const x = gather<Real>(targets, first, count);
     LanesOfVectors<Real> u;
     for (auto const& image : images) image.add(x, u);
-    scatter(u, first, count, velocity);
+    add_lanes(Stokeslet::prefactor, u, first, count, velocity);
   });
 }
 
@@ -127,10 +123,13 @@ void WallImages::add_velocity_at_wall(ConstPoints strengths, ConstPoints wall_no
   if (!screened_) return add_velocity<double>(strengths, wall_nodes, velocity);
   PointArray forces;
   for (Image const& image : images_) forces.push_back(image.nearness * strengths[image.source]);
-  parallel_for("WallImages::samples", static_cast<long>(wall_nodes.size()), [&](long i) {
-    Vec3d sampled;
-    for (std::size_t j = 0; j < forces.size(); ++j) sampled += Stokeslet::velocity(wall_nodes[i] - images_[j].position, forces[j]);
-    velocity[i] -= sampled;
+  auto const n = static_cast<long>(wall_nodes.size());
+  parallel_for("WallImages::samples", (n + n_lane<double> - 1) / n_lane<double>, [&](long block) {
+    long const first = block * n_lane<double>, count = std::min(n_lane<double>, n - first);
+    auto const x = gather<double>(wall_nodes, first, count);
+    LanesOfVectors<double> sampled;
+    for (std::size_t j = 0; j < forces.size(); ++j) add_stokeslet(x, images_[j].position, forces[j], sampled);
+    add_lanes(-Stokeslet::prefactor, sampled, first, count, velocity);
   });
   screened_->add_velocity(places_, forces, velocity);
 }
@@ -148,7 +147,7 @@ void WallImages::add_own_resolution(ConstPoints strengths, ConstPoints positions
       LanesOfVectors<double> u;
       resolved.add(x, u);
       as_it_is.add(x, u);
-      scatter(u, first, count, velocity);
+      add_lanes(Stokeslet::prefactor, u, first, count, velocity);
     }
   }
 }
