@@ -29,7 +29,7 @@ FarField<Real>::FarField(FastKernel kernel, FastLoops<Real> const& loops, FastPa
       components_(n_component(kernel)),
       patches_(kernel, parameters, loops.lanes,
                [this](Patch<Real>& patch, PointArray const& points, std::vector<Range> const& ranges) {
-                 patch.set_tiles(loops_);
+                 patch.set_tiles(loops_, patches_.window().width());
                  return patches_.window().tile(patch, points, ranges);
                }) {}
 

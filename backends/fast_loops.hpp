@@ -99,7 +99,7 @@ template <class Real>
 struct FastLoops {
   int lanes = 0;  // numbers in a vector register
 
-  int tile_y = 0, tile_z = 0;  // nodes of one tile of the grid
+  int tile_y = 0;  // nodes of one tile of the grid
 
   // One tile of the grid: spreads strengths [source, components] and transforms the rows along x.
   // points [n, 3]. scratch: forward_scratch numbers, aligned to 64 bytes.

@@ -18,7 +18,7 @@ namespace {
 template <class Real>
 FastLoops<Real> fast_loops() {
   constexpr int tile_y = lanes<Real> > 8 ? 2 * lanes<Real> : 16;
-  return {lanes<Real>, tile_y, 16, forward<Real>, forward_scratch<Real>, z_sweep<Real>, y_sweep<Real>,
+  return {lanes<Real>, tile_y, forward<Real>, forward_scratch<Real>, z_sweep<Real>, y_sweep<Real>,
           x_inverse<Real>, sweep_scratch<Real>, interpolate<Real>, add_near<Real>, list_near};
 }
 
