@@ -109,7 +109,7 @@ Plan best_plan(ConstPoints sources, ConstPoints targets, FastParameters const& p
   ConstPoints const s = few_sources, t = is_same(sources, targets) ? s : ConstPoints(few_targets);
   Plan best;
   for (double enlargement : {1.0, 1.26, 1.59})
-    for (long capacity : {p.capacity, 2 * p.capacity}) {
+    for (long capacity : {p.capacity, 2 * p.capacity, 4 * p.capacity}) {
       Octree const tree(s, t, OctreeOptions{std::max(4L, capacity / stride), 0, enlargement});
       Plan plan = best_first_level(tree, p, components, static_cast<double>(stride));
       plan.octree.capacity = capacity;
