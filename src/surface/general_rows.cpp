@@ -105,7 +105,8 @@ void GeneralRows::integrate_ring(Vec3d target, Grading::PolarAngle angle, double
   Shape::Columns& r = ring.sample.positions;  // becomes y - target: the kernel is even but for the flux
   Shape::Columns const& area = ring.sample.areas;
   for (int i = 0; i < 3; ++i) r.col(i) -= target[i];
-  ring.factor = (r.square().rowwise().sum()).inverse();
+  ring.factor = r.square().rowwise().sum();
+  ring.factor = (ring.factor > 0.0).select(ring.factor.inverse(), 0.0);  // crowded nodes: the rule may meet the target
   ring.factor *= ring.factor * ring.factor.sqrt();
   ring.factor *= 3.0 / (4.0 * pi) * weight * ring.weights * (r * area).rowwise().sum();
   ring.kernel.resize(n, n_entry);

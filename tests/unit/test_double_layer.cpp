@@ -80,3 +80,13 @@ TEST(DoubleLayer, crowding_the_nodes_does_not_change_the_integral) {
   Eigen::Vector3d const a = GeneralRows(plain, 11.0).at(x) * density(plain), b = GeneralRows(crowded, 11.0).at(x) * density(crowded);
   EXPECT_LT((a - b).norm(), 1e-7);
 }
+
+// So far that the quadrature meets the target itself: this was not a number.
+TEST(DoubleLayer, takes_nodes_that_are_crowded_anywhere) {
+  ShapeSpec spec;
+  spec.kind = ShapeSpec::Kind::ellipsoid;
+  spec.semi_axes = {25, 15, 15};
+  Vec3d const pole{0.6417529228371007, 0.695897632996899, 0.32230369284162924};
+  Surface const crowded(make_shape(spec), 13, Grading(pole_frame(pole), 0.0337));
+  EXPECT_TRUE(DoubleLayer(crowded, Side::interior, 9.0).equation().allFinite());
+}
