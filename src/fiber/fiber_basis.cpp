@@ -20,7 +20,8 @@ FiberBasis::FiberBasis(int n)
   bending = derivative.transpose() * gauss.weights.asDiagonal() * derivative;
 
   // Coefficients of the polynomial through the Gauss nodes, then its integral: total minus integral from 0.
-  Eigen::MatrixXd coefficients = legendre_values(gauss.nodes, n).transpose() * gauss.weights.asDiagonal();
+  legendre = legendre_values(gauss.nodes, n);
+  Eigen::MatrixXd coefficients = legendre.transpose() * gauss.weights.asDiagonal();
   for (int k = 0; k < n; ++k) coefficients.row(k) *= 2 * k + 1;
   remainder = -legendre_integrals(gauss.nodes, n) * coefficients;
   remainder.rowwise() += gauss.weights.transpose();

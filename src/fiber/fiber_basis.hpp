@@ -22,6 +22,7 @@ struct FiberBasis {
   Eigen::MatrixXd derivative;  // [n_node, n_tangent]    ... -> d/d alpha at the hydrodynamic nodes
   Eigen::MatrixXd bending;     // [n_tangent, n_tangent] integral of the product of two derivatives
   Eigen::MatrixXd transform;   // [n_tangent, n_tangent] values -> Legendre coefficients
+  Eigen::MatrixXd legendre;    // [n_node, n_node]       values of the Legendre polynomials at the hydrodynamic nodes
   Eigen::MatrixXd remainder;   // [n_node, n_node]       values at the hydrodynamic nodes -> integral from there to 1
 };
 

@@ -12,14 +12,13 @@ namespace {
 // Values g at the Gauss nodes -> int (g(s') - g(s)) / |s - s'| ds' there; 2 H_k up to `largest`.
 Eigen::MatrixXd finite_part(FiberBasis const& basis, double largest) {
   int const n = basis.n_node;
-  Eigen::MatrixXd const values = legendre_values(basis.gauss.nodes, n);
   Eigen::VectorXd factors(n);
   double harmonic = 0.0;
   for (int k = 0; k < n; ++k) {
     if (k > 0) harmonic += 1.0 / k;
     factors[k] = -std::min(2.0 * harmonic, largest) * (2 * k + 1);
   }
-  return values * factors.asDiagonal() * values.transpose() * basis.gauss.weights.asDiagonal();
+  return basis.legendre * factors.asDiagonal() * basis.legendre.transpose() * basis.gauss.weights.asDiagonal();
 }
 
 }  // namespace
