@@ -77,19 +77,25 @@ void Radiation::place_nodes(FiberNodes const& fibers) {
   if (periphery_) nodes_.insert(nodes_.end(), periphery_->surface().nodes().begin(), periphery_->surface().nodes().end());
 }
 
+void Radiation::plan_body_targets(std::size_t body, BodyTargets& targets) const {
+  PointArray points(nodes_.begin() + targets.first, nodes_.begin() + targets.gap);
+  points.insert(points.end(), nodes_.begin() + targets.gap_end, nodes_.begin() + targets.last);
+  bodies_[body]->plan(to_body_frame(poses_[body], points), targets.plan);
+}
+
 void Radiation::plan_surfaces() {
-  ConstPoints const all = nodes_;
-  body_targets_.resize(bodies_.size());
-  body_neighbours_.resize(bodies_.size());
-  PointArray others(all.begin(), all.begin() + first_.front()), neighbours;
-  others.insert(others.end(), all.begin() + first_.back(), all.end());
+  std::size_t const begin = first_.front(), end = first_.back();  // of the bodies' nodes
+  neighbours_.resize(bodies_.size());
+  others_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    neighbours.assign(all.begin() + first_.front(), all.begin() + first_[b]);
-    neighbours.insert(neighbours.end(), all.begin() + first_[b + 1], all.begin() + first_.back());
-    bodies_[b]->plan(to_body_frame(poses_[b], others), body_targets_[b]);
-    bodies_[b]->plan(to_body_frame(poses_[b], neighbours), body_neighbours_[b]);
+    neighbours_[b].first = begin, neighbours_[b].last = end;
+    neighbours_[b].gap = first_[b], neighbours_[b].gap_end = first_[b + 1];
+    others_[b].first = 0, others_[b].last = nodes_.size();
+    others_[b].gap = begin, others_[b].gap_end = end;
+    plan_body_targets(b, neighbours_[b]);
+    plan_body_targets(b, others_[b]);
   }
-  if (periphery_) periphery_->plan(all.first(first_.back()), periphery_targets_);
+  if (periphery_) periphery_->plan(ConstPoints(nodes_).first(end), periphery_targets_);
 }
 
 void Radiation::plan_fibers(FiberNodes const& fibers) {
@@ -169,29 +175,11 @@ void Radiation::add_fibers(ConstPoints force_density, Exchange kind, Points rece
   subtract_own_sums(ConstPoints(nodes_).first(n_fiber_nodes_), first_fiber_node_, strengths_, received);
 }
 
-void Radiation::add_bodies_to_each_other(std::vector<Vector6> const& motions, ConstPoints incident, Exchange kind,
-                                         Points received) {
-  if (bodies_.size() < 2) return;
-  PointArray flow;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    flow.assign(body_neighbours_[b].size(), Vec3d{});
-    add_flow(*bodies_[b], kind, wall_velocity(b, motions[b], incident), body_neighbours_[b], flow);
-    std::size_t const before = first_[b] - first_.front(), own = first_[b + 1] - first_[b];
-    for (std::size_t i = 0; i < flow.size(); ++i)
-      received[first_.front() + i + (i < before ? 0 : own)] += poses_[b].rotation * flow[i];
-  }
-}
-
-// `received` is complete at the bodies and is read there.
-void Radiation::add_bodies_to_others(std::vector<Vector6> const& motions, Exchange kind, Points received) {
-  PointArray flow;
-  std::size_t const n_body_node = first_.back() - first_.front();
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    flow.assign(body_targets_[b].size(), Vec3d{});
-    add_flow(*bodies_[b], kind, wall_velocity(b, motions[b], received), body_targets_[b], flow);
-    for (std::size_t i = 0; i < flow.size(); ++i)
-      received[i < first_.front() ? i : i + n_body_node] += poses_[b].rotation * flow[i];
-  }
+void Radiation::add_body(std::size_t body, Vector6 const& motion, ConstPoints incident, BodyTargets const& targets,
+                         Exchange kind, Points received) const {
+  PointArray flow(targets.plan.size());
+  add_flow(*bodies_[body], kind, wall_velocity(body, motion, incident), targets.plan, flow);
+  for (std::size_t i = 0; i < flow.size(); ++i) received[targets.node(i)] += poses_[body].rotation * flow[i];
 }
 
 void Radiation::add_periphery(ConstPoints incident, Exchange kind, Points received) {
@@ -208,11 +196,14 @@ void Radiation::exchange(ConstPoints force_density, std::vector<Vector6> const& 
   (is_rough ? seconds_.rough_sums : seconds_.sums) += timer.seconds();
   timer.restart();
   add_periphery(incident, kind, received);
-  add_bodies_to_each_other(motions, incident, kind, received);
+  if (bodies_.size() > 1)
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      add_body(b, motions[b], incident, neighbours_[b], kind, received);
   std::vector<Vector6> now = motions;
   for (std::size_t b = 0; b < now.size(); ++b)
     if (is_free[b]) now[b] = motion_at_same_force(b, motions[b], incident, received);
-  add_bodies_to_others(now, kind, received);
+  for (std::size_t b = 0; b < bodies_.size(); ++b)  // `received` is complete at the bodies
+    add_body(b, now[b], received, others_[b], kind, received);
   (is_rough ? seconds_.rough_surfaces : seconds_.surfaces) += timer.seconds();
 }
 

@@ -98,8 +98,14 @@ class Radiation {
   PointArray periphery_wall_velocity(ConstPoints incident) const;
   void add_fibers(ConstPoints force_density, Exchange kind, Points received);
   void add_images(bool is_rough, Points received) const;
-  void add_bodies_to_each_other(std::vector<Vector6> const& motions, ConstPoints incident, Exchange kind, Points received);
-  void add_bodies_to_others(std::vector<Vector6> const& motions, Exchange kind, Points received);
+  struct BodyTargets {  // of one body: nodes [first, last) but for [gap, gap_end)
+    std::size_t first = 0, last = 0, gap = 0, gap_end = 0;
+    DirichletFlow::Targets plan;
+    std::size_t node(std::size_t i) const { return first + i < gap ? first + i : first + i + gap_end - gap; }
+  };
+  void plan_body_targets(std::size_t body, BodyTargets& targets) const;
+  void add_body(std::size_t body, Vector6 const& motion, ConstPoints incident, BodyTargets const& targets, Exchange kind,
+                Points received) const;
   void add_periphery(ConstPoints incident, Exchange kind, Points received);
 
   std::vector<Flow> bodies_;
@@ -116,9 +122,9 @@ class Radiation {
   PointArray nodes_;
   std::vector<double> weights_;
   std::vector<WallImages> images_;  // in each body, then behind the periphery
-  std::vector<DirichletFlow::Targets> body_targets_;    // per body: nodes of fibers and periphery
-  std::vector<DirichletFlow::Targets> body_neighbours_;  // per body: nodes of the other bodies
-  DirichletFlow::Targets periphery_targets_;          // all nodes but its own
+  std::vector<BodyTargets> neighbours_;          // per body: nodes of the other bodies
+  std::vector<BodyTargets> others_;              // per body: nodes of fibers and periphery
+  DirichletFlow::Targets periphery_targets_;     // all nodes but its own
   CloseNodes close_nodes_;
   PointArray strengths_;                              // [n_fiber_node] pN over viscosity
   Seconds seconds_;
