@@ -101,12 +101,16 @@ Resistance refine(std::vector<PlacedSurface> const& bodies, ResistanceOptions co
   bool const is_chosen = options.order > 0;
   Resistance result;
   result.order = is_chosen ? options.order : std::min(highest_order, first_order);
-  for (int trial = 0;; ++trial) {
+  MatrixXd before;  // loads with the order before
+  for (int trial = 0, order_before = 0;; ++trial) {
     Loads const loads = loads_at(result.order);
     result.iterations = std::max(result.iterations, loads.iterations);
     double const asymmetry = difference(bodies, loads.fine, loads.fine.transpose());
-    double const change = difference(bodies, loads.fine, loads.rough);
-    result.error = std::max(asymmetry, error_of_fine(change, loads.rough_order, result.order));
+    double error = error_of_fine(difference(bodies, loads.fine, loads.rough), loads.rough_order, result.order);
+    if (trial > 0) error = std::min(error, error_of_fine(difference(bodies, loads.fine, before), order_before, result.order));
+    result.error = std::max(asymmetry, error);
+    before = loads.fine;
+    order_before = result.order;
     result.resistance = options.viscosity * 0.5 * (loads.fine + loads.fine.transpose());
     if (is_chosen || result.error <= options.accuracy || result.order == highest_order || trial == most_refinements) break;
     result.order = std::min(highest_order, refined_order(result.error, result.order, options.accuracy));
