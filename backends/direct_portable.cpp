@@ -3,6 +3,7 @@
 // points allow it.
 
 #include "backends/backend.hpp"
+#include "backends/default_space.hpp"
 #include "backends/frame.hpp"
 #include "base/error.hpp"
 #include "kernels/dual.hpp"
@@ -19,9 +20,8 @@ using Space = Kokkos::DefaultExecutionSpace;
 using TeamPolicy = Kokkos::TeamPolicy<Space>;
 using Team = TeamPolicy::member_type;
 
-constexpr bool is_host = Kokkos::SpaceAccessibility<Kokkos::HostSpace, Space::memory_space>::accessible;
-constexpr int threads_per_team = is_host ? 1 : 128;
-constexpr int targets_per_thread = is_host ? 16 : 2;
+constexpr int threads_per_team = default_space_is_host ? 1 : 128;
+constexpr int targets_per_thread = default_space_is_host ? 16 : 2;
 constexpr int sources_per_tile = 128;  // summed in Real before they are added in double
 
 template <class Real>

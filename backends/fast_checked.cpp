@@ -5,10 +5,9 @@
 // from the eighth of largest results of the first sum.
 
 #include "backends/backend.hpp"
+#include "backends/default_space.hpp"
 #include "backends/fast.hpp"
 #include "base/error.hpp"
-
-#include <Kokkos_Core.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,9 +20,6 @@ constexpr double strictest = 1e-12;   // fast sums cannot do better
 constexpr std::size_t n_checked = 96;  // targets
 constexpr double tolerated = 0.9;      // estimated error over the one asked for: what a sample misses
 constexpr double margin = 0.3;         // of the next accuracy, where one was missed
-
-constexpr bool default_space_is_host =
-    Kokkos::SpaceAccessibility<Kokkos::HostSpace, Kokkos::DefaultExecutionSpace::memory_space>::accessible;
 
 double square(ConstPoints points) {
   double sum = 0.0;

@@ -12,7 +12,7 @@ namespace asterflow {
 namespace {
 
 // Targets that share a list of sources: those of a warp.
-constexpr int group_size = device_is_host ? 8 : 32;
+constexpr int group_size = default_space_is_host ? 8 : 32;
 
 template <class Real>
 class DeviceParts final : public FastParts {

@@ -13,11 +13,11 @@
 namespace asterflow {
 namespace {
 
-constexpr int threads = device_is_host ? 1 : 64;
-constexpr int lanes = device_is_host ? 1 : 16;  // for the nodes of a window in one direction
+constexpr int threads = default_space_is_host ? 1 : 64;
+constexpr int lanes = default_space_is_host ? 1 : 16;  // for the nodes of a window in one direction
 
 // Nodes of patches handled together: enough to occupy a device.
-constexpr double batch_nodes = device_is_host ? 1e6 : 2e7;
+constexpr double batch_nodes = default_space_is_host ? 1e6 : 2e7;
 
 FastParameters for_device(FastParameters parameters) {
   parameters.batch_nodes = batch_nodes;
@@ -253,7 +253,7 @@ void DeviceFar<Real>::run(Batch const& batch, DeviceArray<double> const& velocit
   sweep(batch.y_lines_back, 1, DeviceColumns<Real, 1, true>{tables_, batch.y_lines_back, 0});
   sweep(batch.rows_back, 0, DeviceRows<Real, true>{tables_, batch.rows_back, 0});
   DeviceInterpolation<Real> const interpolation{tables_, batch.targets, velocity, slopes};
-  launch_teams<Real>("asterflow::Fast::interpolate", batch.targets, device_is_host ? 1 : 8, lanes, 0, interpolation.scratch,
+  launch_teams<Real>("asterflow::Fast::interpolate", batch.targets, default_space_is_host ? 1 : 8, lanes, 0, interpolation.scratch,
                      interpolation);
 }
 

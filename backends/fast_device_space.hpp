@@ -1,6 +1,8 @@
 #pragma once
 // What the kernels of the fast sum for any execution space share.
 
+#include "backends/default_space.hpp"
+
 #include <Kokkos_Core.hpp>
 
 #include <string>
@@ -17,9 +19,6 @@ template <class Number>
 using DeviceArray = Kokkos::View<Number*, DeviceSpace>;
 template <class Number>
 using DeviceScratch = Kokkos::View<Number*, DeviceSpace::scratch_memory_space, Kokkos::MemoryUnmanaged>;
-
-inline constexpr bool device_is_host =
-    Kokkos::SpaceAccessibility<Kokkos::HostSpace, DeviceSpace::memory_space>::accessible;
 
 // Scratch memory of a team that every space has close to its cores; more of it is slower memory.
 inline constexpr long close_scratch = 32000;  // bytes

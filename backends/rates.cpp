@@ -1,13 +1,12 @@
 #include "backends/rates.hpp"
 
 #include "backends/backend.hpp"
+#include "backends/default_space.hpp"
 #include "backends/fast_kernel.hpp"
 #include "backends/fast_plan.hpp"
 #include "backends/rates_file.hpp"
 #include "base/random.hpp"
 #include "base/timer.hpp"
-
-#include <Kokkos_Core.hpp>
 
 #include <algorithm>
 #include <array>
@@ -27,11 +26,8 @@ constexpr std::array built_in{
     KernelRates{"stresslet", {0.28, 0.315, 0.60, 0.61}, {1.1, 1.1, 1.35, 1.4}},
     KernelRates{"rotlet", {0.23, 0.27, 0.50, 0.51}, {0.85, 0.85, 1.0, 1.2}}};
 
-constexpr bool is_host =
-    Kokkos::SpaceAccessibility<Kokkos::HostSpace, Kokkos::DefaultExecutionSpace::memory_space>::accessible;
-
 // Near the number where both sums cost the same, or enough of them to occupy a device.
-constexpr long n_direct = is_host ? 3000 : 60000, n_fast = is_host ? 4000 : 200000;
+constexpr long n_direct = default_space_is_host ? 3000 : 60000, n_fast = default_space_is_host ? 4000 : 200000;
 
 constexpr double enough = 0.2;  // seconds of repetitions, of which the best count
 constexpr int fewest = 2, most = 9;
