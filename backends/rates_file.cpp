@@ -18,13 +18,6 @@ namespace {
 
 constexpr int method_version = 2;  // of the sums and of what is measured: to be raised when either changes
 
-// Fowler-Noll-Vo.
-std::uint64_t checksum(std::string_view text) {
-  std::uint64_t sum = 14695981039346656037ULL;
-  for (char const c : text) sum = (sum ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return sum;
-}
-
 std::string hexadecimal(std::uint64_t number) {
   char text[17];
   std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(number));
@@ -32,7 +25,7 @@ std::string hexadecimal(std::uint64_t number) {
 }
 
 std::filesystem::path file_of(std::string const& key) {
-  return (cache_folder() / "sums-").concat(hexadecimal(checksum(key))).concat(".rates");
+  return (cache_folder() / "sums-").concat(hexadecimal(number_of(key))).concat(".rates");
 }
 
 std::string processor() {
@@ -46,7 +39,7 @@ std::string processor() {
 std::string contents(std::string const& key, SumRates const& rates) {
   char numbers[64];
   std::snprintf(numbers, sizeof(numbers), "%a %a\n", rates.pair, rates.plan);
-  return key + numbers + hexadecimal(checksum(key + numbers)) + "\n";
+  return key + numbers + hexadecimal(number_of(key + numbers)) + "\n";
 }
 
 }  // namespace

@@ -34,10 +34,8 @@ std::uint64_t checksum(ShellOperator::Matrices const& matrices) {
 }
 
 std::filesystem::path file_of(OperatorKey const& key) {
-  std::uint64_t name = 14695981039346656037ULL;
-  for (char const c : key.text()) name = (name ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
   auto const folder = cache_folder();
-  return folder.empty() ? folder : folder / fmt::format("surface-{:016x}.operator", name);
+  return folder.empty() ? folder : folder / fmt::format("surface-{:016x}.operator", number_of(key.text()));
 }
 
 bool read_number(std::ifstream& file, std::uint64_t& number, std::uint64_t most) {

@@ -1,5 +1,7 @@
 #include "surface/operator_cache.hpp"
 
+#include "cache_fixture.hpp"
+
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -7,31 +9,18 @@
 #include <filesystem>
 #include <fstream>
 #include <thread>
-#include <unistd.h>
 
 using namespace asterflow;
 
 namespace {
 
-// A cache folder of this test's own.
-class OperatorCache : public testing::Test {
+class OperatorCache : public CacheFixture {
  protected:
-  OperatorCache() : folder_(std::filesystem::temp_directory_path() / ("asterflow-test-" + std::to_string(getpid()))) {
-    setenv("ASTERFLOW_CACHE", folder_.c_str(), 1);
-  }
-  ~OperatorCache() override {
-    std::filesystem::remove_all(folder_);
-    setenv("ASTERFLOW_CACHE", "off", 1);
-  }
-
   static OperatorKey key(double radius, int order = 6) {
     ShapeSpec spec;
     spec.radius = radius;
     return OperatorKey(Surface(make_shape(spec), order), Side::interior, 8, 1e-6);
   }
-  std::filesystem::path only_file() const { return std::filesystem::directory_iterator(folder_)->path(); }
-
-  std::filesystem::path folder_;
   ShellOperator::Matrices const matrices_{Eigen::MatrixXd::Random(3, 5), Eigen::MatrixXd(0, 0), Eigen::MatrixXd::Random(2, 2)};
 };
 

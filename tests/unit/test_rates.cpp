@@ -1,6 +1,7 @@
 #include "backends/rates.hpp"
 
 #include "backends/evaluator.hpp"
+#include "cache_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,26 +9,14 @@
 #include <filesystem>
 #include <fstream>
 #include <thread>
-#include <unistd.h>
 
 using namespace asterflow;
 
 namespace {
 
-// A cache folder of this test's own.
-class Rates : public testing::Test {
+class Rates : public CacheFixture {
  protected:
-  Rates() : folder_(std::filesystem::temp_directory_path() / ("asterflow-rates-" + std::to_string(getpid()))) {
-    setenv("ASTERFLOW_CACHE", folder_.c_str(), 1);
-  }
-  ~Rates() override {
-    std::filesystem::remove_all(folder_);
-    setenv("ASTERFLOW_CACHE", "off", 1);
-  }
-  std::filesystem::path only_file() const { return std::filesystem::directory_iterator(folder_)->path(); }
   static bool are_equal(SumRates const& a, SumRates const& b) { return a.pair == b.pair && a.plan == b.plan; }
-
-  std::filesystem::path folder_;
 };
 
 }  // namespace
