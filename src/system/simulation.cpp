@@ -99,11 +99,16 @@ Matrix6 Simulation::resistance_alone(std::size_t body, RigidPose const& pose) co
   return body_resistance(*flows_.bodies[body], pose, scene_.fluid.viscosity);
 }
 
-ContactLoad Simulation::contact_of(std::size_t body, BodyMotionMap const& map) const {
-  return steric_repulsion_ && bodies_[body].is_free() ? steric_repulsion_->on_body(body, map) : ContactLoad{};
+std::vector<ContactLoad> Simulation::contacts(std::vector<BodyMotionMap> const& maps) const {
+  std::vector<ContactLoad> contacts(bodies_.size());
+  if (steric_repulsion_)
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      if (bodies_[b].is_free()) contacts[b] = steric_repulsion_->on_body(b, maps[b]);
+  return contacts;
 }
 
-std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps) const {
+std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps,
+                                          std::vector<ContactLoad> const& contacts) const {
   std::vector<BodyDrive> drives;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     auto const& body = bodies_[b];
@@ -114,9 +119,8 @@ std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps
       carried << to_eigen(background_->velocity(drive.pose.position)), to_eigen(background_->rotation());
       drive.value += drive.resistance * carried;
     }
-    ContactLoad const contact = contact_of(b, maps[b]);
-    drive.resistance += contact.resistance;
-    drive.value += contact.load;
+    drive.resistance += contacts[b].resistance;
+    drive.value += contacts[b].load;
     drives.push_back(drive);
   }
   return drives;
@@ -162,11 +166,12 @@ std::string Simulation::misplaced_trial() const {
   return words;
 }
 
-ScatteringSolution Simulation::solve(ConstPoints expected, std::vector<BodyMotionMap> const& maps, StepReport& report) {
+ScatteringSolution Simulation::solve(ConstPoints expected, std::vector<BodyMotionMap> const& maps,
+                                     std::vector<ContactLoad> const& contacts, StepReport& report) {
   Radiation::Seconds const before = radiation_ ? radiation_->seconds() : Radiation::Seconds{};
   Timer const timer;
   SteppedFibers const answers(fibers_);
-  Scattering scattering(answers, drives(maps), radiation_.get(), &memory_,
+  Scattering scattering(answers, drives(maps, contacts), radiation_.get(), &memory_,
                         {.tolerance = scene_.run.gmres_tolerance, .max_iterations = scene_.run.gmres_max_iterations});
   auto const nodes = scattering.nodes();
   report.prepare_seconds += timer.seconds();
@@ -209,11 +214,10 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   trial.misplaced = misplaced_prediction(maps);
   report.prepare_seconds += timer.seconds();
   if (!trial.misplaced.empty()) return trial;
-  trial.solution = solve(expected, maps, report);
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    ContactLoad const contact = contact_of(b, maps[b]);
-    trial.contacts.push_back(contact.load - contact.resistance * trial.solution.motions[b]);
-  }
+  std::vector<ContactLoad> const contacts = this->contacts(maps);
+  trial.solution = solve(expected, maps, contacts, report);
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    trial.contacts.push_back(contacts[b].load - contacts[b].resistance * trial.solution.motions[b]);
   advance(trial);
   trial.misplaced = misplaced_trial();
   return trial;

@@ -74,10 +74,11 @@ class Simulation {
   std::vector<NamedArray> fiber_end_frame() const;
   void plan_fibers(double dt);
   void hold_fibers(PointArray u, std::vector<BodyMotionMap> const& maps);
-  std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps) const;
-  ContactLoad contact_of(std::size_t body, BodyMotionMap const& map) const;  // with the periphery
+  std::vector<ContactLoad> contacts(std::vector<BodyMotionMap> const& maps) const;  // of the bodies with the periphery
+  std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps, std::vector<ContactLoad> const& contacts) const;
   Trial attempt(double dt, StepReport& report);
-  ScatteringSolution solve(ConstPoints expected, std::vector<BodyMotionMap> const& maps, StepReport& report);
+  ScatteringSolution solve(ConstPoints expected, std::vector<BodyMotionMap> const& maps,
+                           std::vector<ContactLoad> const& contacts, StepReport& report);
   void advance(Trial& trial);
   std::string misplaced_prediction(std::vector<BodyMotionMap> const& maps) const;
   std::string misplaced_trial() const;
