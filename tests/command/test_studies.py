@@ -6,6 +6,7 @@ import sys
 import unittest
 from pathlib import Path
 
+import numpy as np
 from program import ASTERFLOW, CommandTest
 
 STUDIES = Path(__file__).resolve().parents[2] / "studies"
@@ -32,6 +33,21 @@ class Studies(CommandTest):
         self.assertIn("not within 0.1 min", first["time to within 1 um of the centre"])
         longer = self.study("figure06", "--fibers", 6, "--end-time", 12)
         self.assertIn("not within 0.2 min", longer["time to within 1 um of the centre"])
+
+    def test_an_exponential_turn_has_its_growth_rate(self):
+        sys.path.insert(0, str(STUDIES))
+        from turning import growth
+
+        times = np.arange(0, 100, 0.1)
+        rate, _, end = growth(times, 0.01 * np.exp(0.05 * times))
+        self.assertAlmostEqual(rate, 0.05, delta=2e-4)  # forward differences: g dt / 2 of it
+        self.assertAlmostEqual(end, np.log(60) / 0.05, delta=0.1)
+
+    def test_straight_microtubules_push_the_complex_inwards(self):
+        done = subprocess.run([sys.executable, STUDIES / "straight_pushing.py", "--translation", "100", "--minutes", "10",
+                               "--law", "viscous", "--fibers", "200", "--seeds", "1"], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("2 um nan", done.stdout)
 
 
 if __name__ == "__main__":
