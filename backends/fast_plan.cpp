@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace asterflow {
 namespace {
@@ -50,11 +51,34 @@ double near_pairs(Octree const& tree, double thinning, double lanes) {
 
 bool is_same(ConstPoints a, ConstPoints b) { return a.data() == b.data() && a.size() == b.size(); }
 
-PointArray thinned(ConstPoints points, long stride) {
-  PointArray few;
-  for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(stride)) few.push_back(points[i]);
-  return few;
-}
+// One of every `stride` points along the Morton curve: every box keeps its share, to within one point.
+class Thinned {
+ public:
+  Thinned(ConstPoints sources, ConstPoints targets, long stride) {
+    bool const same = is_same(sources, targets);
+    if (stride == 1) {
+      sources_.assign(sources.begin(), sources.end());
+      if (!same) targets_.assign(targets.begin(), targets.end());
+    } else {
+      Octree const order(sources, targets, {.capacity = std::numeric_limits<long>::max() / 4});
+      sources_ = every(order.sources(), stride);
+      if (!same) targets_ = every(order.targets(), stride);
+    }
+    is_same_ = same;
+  }
+  ConstPoints sources() const { return sources_; }
+  ConstPoints targets() const { return is_same_ ? sources_ : targets_; }
+
+ private:
+  static PointArray every(PointArray const& points, long stride) {
+    PointArray few;
+    for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(stride)) few.push_back(points[i]);
+    return few;
+  }
+
+  bool is_same_ = false;
+  PointArray sources_, targets_;
+};
 
 // Nodes of the grid in free space whose cutoff is the side of a box of `level`.
 double root_nodes(Octree const& tree, FastParameters const& p, int level) {
@@ -104,13 +128,11 @@ Plan best_plan(ConstPoints sources, ConstPoints targets, FastParameters const& p
   long const n = static_cast<long>(sources.size() + targets.size()) / 2;
   // Some of the points are enough to compare.
   long const stride = std::clamp(n / (p.single ? 2500 : 6000), 1L, 16L);
-  PointArray const few_sources = thinned(sources, stride);
-  PointArray const few_targets = is_same(sources, targets) ? PointArray{} : thinned(targets, stride);
-  ConstPoints const s = few_sources, t = is_same(sources, targets) ? s : ConstPoints(few_targets);
+  Thinned const few(sources, targets, stride);
   Plan best;
   for (double enlargement : {1.0, 1.26, 1.59})
     for (long capacity : {p.capacity, 2 * p.capacity, 4 * p.capacity}) {
-      Octree const tree(s, t, OctreeOptions{std::max(4L, capacity / stride), 0, enlargement});
+      Octree const tree(few.sources(), few.targets(), OctreeOptions{std::max(4L, capacity / stride), 0, enlargement});
       Plan plan = best_first_level(tree, p, components, static_cast<double>(stride));
       plan.octree.capacity = capacity;
       plan.octree.enlargement = enlargement;
