@@ -14,13 +14,13 @@ namespace {
 // Targets that share a list of sources: those of a warp.
 constexpr int group_size = default_space_is_host ? 8 : 32;
 
-template <class Real>
+template <class NearReal, class FarReal>
 class DeviceParts final : public FastParts {
-  static constexpr bool in_float = sizeof(Real) == 4;
+  static constexpr bool near_in_float = sizeof(NearReal) == 4;
 
  public:
   DeviceParts(std::string_view kernel, FastParameters const& parameters, LocalPart const& local, FastInstructions instructions)
-      : lists_(group_size, in_float, fast_loops_of<Real>(instructions).list_near),
+      : lists_(group_size, near_in_float, fast_loops_of<NearReal>(instructions).list_near),
         near_(fast_kernel(kernel), local),
         close_(fast_kernel(kernel), local),
         far_(fast_kernel(kernel), parameters) {}
@@ -59,9 +59,9 @@ class DeviceParts final : public FastParts {
   }
 
   NearLists lists_;
-  DeviceNear<Real> near_;
+  DeviceNear<NearReal> near_;
   DeviceNear<double> close_;  // pairs too close for float coordinates
-  DeviceFar<Real> far_;
+  DeviceFar<FarReal> far_;
   DeviceArray<double> strengths_, velocity_, slopes_;  // of the last sum
 };
 
@@ -73,8 +73,9 @@ FastInstructions host_instructions() {
 
 std::unique_ptr<FastParts> make_device_parts(std::string_view kernel, FastParameters const& parameters, FastInstructions) {
   auto const local = KernelSplit(parameters.split_shape).local_part(kernel, parameters.local_tolerance);
-  if (parameters.single) return std::make_unique<DeviceParts<float>>(kernel, parameters, local, host_instructions());
-  return std::make_unique<DeviceParts<double>>(kernel, parameters, local, host_instructions());
+  if (parameters.single) return std::make_unique<DeviceParts<float, float>>(kernel, parameters, local, host_instructions());
+  if (parameters.near_single) return std::make_unique<DeviceParts<float, double>>(kernel, parameters, local, host_instructions());
+  return std::make_unique<DeviceParts<double, double>>(kernel, parameters, local, host_instructions());
 }
 
 }  // namespace asterflow

@@ -36,10 +36,22 @@ struct NearLoop {
     return r2 > P{} ? inverse : P{};
   }
 
+  // Sources summed before the sum goes to double: in float every term rounds the sum of those before it.
+  static constexpr long run = sizeof(Real) == 4 ? 32 : 1L << 40;
+
+  template <int n>
+  struct Sums {
+    double at[n][W] = {};
+    void add(int k, P const& u) {
+      for (int i = 0; i < W; ++i) at[k][i] += static_cast<double>(u[i]);
+    }
+  };
+
   // Adds u [3] of one group to velocity.
-  static void add_to(double* velocity, NearGroup const& group, double scale, P const (&u)[3]) {
+  template <int n>
+  static void add_to(double* velocity, NearGroup const& group, double scale, Sums<n> const& u) {
     for (int i = 0; i < group.n_target; ++i)
-      for (int d = 0; d < 3; ++d) velocity[3 * (group.target + i) + d] += scale * static_cast<double>(u[d][i]);
+      for (int d = 0; d < 3; ++d) velocity[3 * (group.target + i) + d] += scale * u.at[d][i];
   }
 
   template <class Kernel, int terms>
@@ -48,7 +60,7 @@ struct NearLoop {
     for (long g = 0; g < work.n_group; ++g) {
       NearGroup const& group = work.groups[g];
       Targets const targets(work.targets, group);
-      P u[3] = {P{}, P{}, P{}};
+      Sums<3> sums;
       for (; segment < group.segment_end; ++segment) {
         NearSegment const& piece = work.segments[segment];
         NearLevel<Real> const& level = work.levels[piece.level];
@@ -56,23 +68,27 @@ struct NearLoop {
         Real a[terms], b[terms];
         for (int k = 0; k < terms; ++k) a[k] = level.a[k], b[k] = level.b[k];
         P const cutoff2 = broadcast(level.cutoff2);
-        for (; source < piece.end; ++source) {
-          Real const* const record = records + work.list[source] * static_cast<long>(work.record);
-          P r[3];
-          targets.minus(record, r);
-          P const r2 = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-          P const inverse = inverse_distance(r2, work.refinement_steps);
-          P const w = r2 * level.u_scale - Real(1);
-          P pa = broadcast(a[terms - 1]), pb = broadcast(b[terms - 1]);
-          for (int k = terms - 2; k >= 0; --k) {
-            pa = pa * w + a[k];
-            pb = pb * w + b[k];
+        while (source < piece.end) {
+          P u[3] = {P{}, P{}, P{}};
+          for (long const stop = smaller(long{piece.end}, source + run); source < stop; ++source) {
+            Real const* const record = records + work.list[source] * static_cast<long>(work.record);
+            P r[3];
+            targets.minus(record, r);
+            P const r2 = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+            P const inverse = inverse_distance(r2, work.refinement_steps);
+            P const w = r2 * level.u_scale - Real(1);
+            P pa = broadcast(a[terms - 1]), pb = broadcast(b[terms - 1]);
+            for (int k = terms - 2; k >= 0; --k) {
+              pa = pa * w + a[k];
+              pb = pb * w + b[k];
+            }
+            auto const inside = [&](P const& x) { return r2 < cutoff2 ? x : P{}; };
+            Kernel::add(r, inverse, pa, pb, inside, record + offset, u);
           }
-          auto const inside = [&](P const& x) { return r2 < cutoff2 ? x : P{}; };
-          Kernel::add(r, inverse, pa, pb, inside, record + offset, u);
+          for (int d = 0; d < 3; ++d) sums.add(d, u[d]);
         }
       }
-      add_to(velocity, group, work.velocity_scale, u);
+      add_to(velocity, group, work.velocity_scale, sums);
     }
   }
 
@@ -86,6 +102,28 @@ struct NearLoop {
     return {value, derivative * slope[0], derivative * slope[1], derivative * slope[2]};
   }
 
+  template <class Kernel>
+  static void add_pair_gradient(NearWork<Real> const& work, NearLevel<Real> const& level, Targets const& targets,
+                                Real const* record, Dual<P> (&u)[3]) {
+    using D = Dual<P>;
+    P r[3];
+    targets.minus(record, r);
+    P const r2 = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+    P const s = inverse_distance(r2, 1), one = broadcast(Real(1));
+    P const slope[3] = {r[0] * (2 * level.u_scale), r[1] * (2 * level.u_scale), r[2] * (2 * level.u_scale)};
+    P const w = r2 * level.u_scale - Real(1);
+    D const x[3] = {{r[0], one, P{}, P{}}, {r[1], P{}, one, P{}}, {r[2], P{}, P{}, one}};
+    D const inverse = differentiable_inverse(Vec3<P>{r[0], r[1], r[2]}, s);
+    auto const inside = [&](D const& n) {
+      auto const keep = [&](P const& p) { return r2 < broadcast(level.cutoff2) ? p : P{}; };
+      return D{keep(n.value), keep(n.slope[0]), keep(n.slope[1]), keep(n.slope[2])};
+    };
+    D strength[6];
+    for (int d = 0; d < work.record - offset; ++d) strength[d] = broadcast(record[offset + d]);
+    Kernel::add(x, inverse, polynomial(level.a, work.terms, w, slope), polynomial(level.b, work.terms, w, slope), inside,
+                strength, u);
+  }
+
   // Velocity and gradient.
   template <class Kernel>
   static void add_gradient(NearWork<Real> const& work, double* velocity, double* gradient) {
@@ -94,36 +132,23 @@ struct NearLoop {
     for (long g = 0; g < work.n_group; ++g) {
       NearGroup const& group = work.groups[g];
       Targets const targets(work.targets, group);
-      D u[3];
+      Sums<12> sums;  // velocity, gradient
       for (; segment < group.segment_end; ++segment) {
         NearSegment const& piece = work.segments[segment];
         NearLevel<Real> const& level = work.levels[piece.level];
-        for (; source < piece.end; ++source) {
-          Real const* const record = work.records + (piece.base + work.list[source]) * static_cast<long>(work.record);
-          P r[3];
-          targets.minus(record, r);
-          P const r2 = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-          P const s = inverse_distance(r2, 1), one = broadcast(Real(1));
-          P const slope[3] = {r[0] * (2 * level.u_scale), r[1] * (2 * level.u_scale), r[2] * (2 * level.u_scale)};
-          P const w = r2 * level.u_scale - Real(1);
-          D const x[3] = {{r[0], one, P{}, P{}}, {r[1], P{}, one, P{}}, {r[2], P{}, P{}, one}};
-          D const inverse = differentiable_inverse(Vec3<P>{r[0], r[1], r[2]}, s);
-          auto const inside = [&](D const& n) {
-            auto const keep = [&](P const& p) { return r2 < broadcast(level.cutoff2) ? p : P{}; };
-            return D{keep(n.value), keep(n.slope[0]), keep(n.slope[1]), keep(n.slope[2])};
-          };
-          D strength[6];
-          for (int d = 0; d < work.record - offset; ++d)
-            strength[d] = broadcast(record[offset + d]);
-          Kernel::add(x, inverse, polynomial(level.a, work.terms, w, slope),
-                      polynomial(level.b, work.terms, w, slope), inside, strength, u);
+        while (source < piece.end) {
+          D u[3];
+          for (long const stop = smaller(long{piece.end}, source + run); source < stop; ++source)
+            add_pair_gradient<Kernel>(work, level, targets, work.records + (piece.base + work.list[source]) * static_cast<long>(work.record), u);
+          for (int d = 0; d < 3; ++d) {
+            sums.add(d, u[d].value);
+            for (int e = 0; e < 3; ++e) sums.add(3 + 3 * d + e, u[d].slope[e]);
+          }
         }
       }
-      P const values[3] = {u[0].value, u[1].value, u[2].value};
-      add_to(velocity, group, work.velocity_scale, values);
+      add_to(velocity, group, work.velocity_scale, sums);
       for (int i = 0; i < group.n_target; ++i)
-        for (int d = 0; d < 9; ++d)
-          gradient[9 * (group.target + i) + d] += work.gradient_scale * static_cast<double>(u[d / 3].slope[d % 3][i]);
+        for (int d = 0; d < 9; ++d) gradient[9 * (group.target + i) + d] += work.gradient_scale * sums.at[3 + d][i];
     }
   }
 

@@ -14,7 +14,8 @@ struct FastParameters {
   int width;                // nodes of the grid window
   double window_shape;      // its c
   double local_tolerance;   // of the polynomials of the local part
-  bool single;              // float arithmetic
+  bool single;              // grids in float
+  bool near_single;         // pairs in float
   int refinement_steps;     // of the reciprocal square root, beyond the first for double
 
   bool gradient = false;      // whether gradients will be asked for
