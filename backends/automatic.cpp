@@ -2,8 +2,7 @@
 // time per pair, fast ones what the plan of their octree predicts, both at the rates of rates.hpp.
 
 #include "backends/backend.hpp"
-#include "backends/fast_kernel.hpp"
-#include "backends/fast_plan.hpp"
+#include "backends/fast.hpp"
 #include "backends/rates.hpp"
 
 #include <cmath>
@@ -15,8 +14,8 @@ namespace {
 // Direct sums share some of the work between the two directions of a pair where sources are targets.
 constexpr double separate_points = 1.33;
 
-// Points below which fast sums are direct ones, and factor beyond the crossover of a uniform cloud where no plan
-// is needed to see which is cheaper.
+// Points below which fast sums are direct ones, and factor below the crossover of a uniform cloud where no plan
+// is needed to see that direct sums are cheaper.
 constexpr double fewest = 1000.0, clear = 4.0;
 
 class Automatic final : public Evaluator {
@@ -24,10 +23,15 @@ class Automatic final : public Evaluator {
   Automatic(std::string_view kernel, EvaluatorOptions const& options) : kernel_(kernel), options_(options) {}
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
-    auto& wanted = is_fast_cheaper(sources, targets) ? fast_ : direct_;
-    if (!wanted) wanted = &wanted == &fast_ ? make_fast(kernel_, options_) : make_direct(kernel_, options_);
-    used_ = wanted.get();
-    used_->set_points(sources, targets, normals);
+    if (auto const plan = cheaper_plan(sources, targets)) {
+      if (!fast_) fast_ = make_checked_fast(kernel_, options_);
+      fast_->set_points(sources, targets, normals, *plan);
+      used_ = fast_.get();
+    } else {
+      if (!direct_) direct_ = make_direct(kernel_, options_);
+      direct_->set_points(sources, targets, normals);
+      used_ = direct_.get();
+    }
   }
   void add_velocity(ConstPoints strengths, Points velocity) override {
     if (used_) used_->add_velocity(strengths, velocity);
@@ -41,26 +45,27 @@ class Automatic final : public Evaluator {
   }
 
  private:
-  bool is_fast_cheaper(ConstPoints sources, ConstPoints targets) {
+  // Of fast sums, where they cost less than direct ones.
+  std::optional<Plan> cheaper_plan(ConstPoints sources, ConstPoints targets) {
     bool const same = sources.data() == targets.data() && sources.size() == targets.size();
     double const n_source = static_cast<double>(sources.size()), n_target = static_cast<double>(targets.size());
     double const n = 0.5 * (n_source + n_target);
-    if (n < fewest || options_.accuracy < 1e-12) return false;
+    if (n < fewest || options_.accuracy < 1e-12) return {};
     if (!rates_) rates_ = sum_rates(kernel_, options_.accuracy);
     double const direct = n_source * n_target * (same ? 1.0 : separate_points) * rates_->pair / rates_->plan;
     double const digits = -std::log10(options_.accuracy);
     double const usual = n * (90.0 * digits * digits + 400.0);  // ns, of a uniform cloud
-    if (direct * clear < usual) return false;
-    if (direct > clear * usual) return true;
-    Plan const plan = best_plan(sources, targets, fast_parameters(kernel_, options_.accuracy, options_.gradient),
-                                n_component(fast_kernel(kernel_)));
-    return direct > predicted_fast(plan.cost, n);
+    if (direct * clear < usual) return {};
+    Plan const plan = best_plan(kernel_, sources, targets, fast_parameters(kernel_, options_.accuracy, options_.gradient));
+    if (direct > predicted_fast(plan.cost, n)) return plan;
+    return {};
   }
 
   std::string kernel_;
   EvaluatorOptions options_;
   std::optional<SumRates> rates_;  // of the first points whose choice needs them
-  std::unique_ptr<Evaluator> direct_, fast_;
+  std::unique_ptr<Evaluator> direct_;
+  std::unique_ptr<FastEvaluator> fast_;
   Evaluator* used_ = nullptr;
 };
 

@@ -8,7 +8,7 @@
 #include "backends/blocks.hpp"
 #include "backends/fast_kernel.hpp"
 #include "backends/fast_parts.hpp"
-#include "backends/fast_plan.hpp"
+#include "backends/finite.hpp"
 #include "base/error.hpp"
 
 #include <cmath>
@@ -16,22 +16,17 @@
 namespace asterflow {
 namespace {
 
-void require_finite(ConstPoints points, char const* what) {
-  for (Vec3d const& p : points)
-    if (!std::isfinite(p.x + p.y + p.z) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 1e150)
-      throw SceneError(std::string("pair sum: ") + what + " " + std::to_string(&p - points.data()) +
-                       " is not a finite number below 1e150");
-}
-
-class FastSum final : public Evaluator {
+class FastSum final : public FastEvaluator {
  public:
   FastSum(std::string_view kernel, FastParameters const& parameters, FastInstructions instructions, std::string_view name)
       : name_(name), kernel_(kernel), parameters_(parameters), instructions_(instructions) {}
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
+    set_points(sources, targets, normals, best_plan(kernel_, sources, targets, parameters_));
+  }
+
+  void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals, Plan const& plan) override {
     ASTERFLOW_REQUIRE(normals.size() == (has_normal(fast_kernel(kernel_)) ? sources.size() : 0));
-    require_finite(sources, "source");
-    require_finite(targets, "target");
     require_finite(normals, "normal");
     n_source_ = sources.size();
     n_target_ = targets.size();
@@ -39,7 +34,7 @@ class FastSum final : public Evaluator {
     tree_.reset();
     if (n_source_ == 0 || n_target_ == 0) return;
     if (static_cast<long>(n_source_ + n_target_) > 2 * parameters_.capacity)
-      tree_ = std::make_unique<Octree>(sources, targets, best_plan(sources, targets, parameters_, n_component(fast_kernel(kernel_))).octree);
+      tree_ = std::make_unique<Octree>(sources, targets, plan.octree);
     if (!tree_ || tree_->refined().empty()) {
       direct_ = make_direct(kernel_, {.accuracy = parameters_.accuracy, .gradient = parameters_.gradient});
       return direct_->set_points(sources, targets, normals);
@@ -112,8 +107,8 @@ class FastSum final : public Evaluator {
 
 }  // namespace
 
-std::unique_ptr<Evaluator> make_fast(std::string_view kernel, FastParameters const& parameters,
-                                     FastInstructions instructions, std::string_view name) {
+std::unique_ptr<FastEvaluator> make_fast(std::string_view kernel, FastParameters const& parameters,
+                                         FastInstructions instructions, std::string_view name) {
   return std::make_unique<FastSum>(kernel, parameters, instructions, name);
 }
 

@@ -3,14 +3,25 @@
 
 #include "backends/evaluator.hpp"
 #include "backends/fast_parameters.hpp"
+#include "backends/fast_plan.hpp"
 
 namespace asterflow {
+
+// Takes an octree that was planned for the points already, so that a choice by its cost need not be paid for twice.
+class FastEvaluator : public Evaluator {
+ public:
+  using Evaluator::set_points;
+  virtual void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals, Plan const& plan) = 0;
+};
 
 // Vector loops of the host, or Kokkos's default execution space.
 enum class FastInstructions { portable, avx2, avx512, device };
 
 // The error is what the parameters make it: nobody checks.
-std::unique_ptr<Evaluator> make_fast(std::string_view kernel, FastParameters const& parameters,
-                                     FastInstructions instructions, std::string_view name);
+std::unique_ptr<FastEvaluator> make_fast(std::string_view kernel, FastParameters const& parameters,
+                                         FastInstructions instructions, std::string_view name);
+
+// The fast backend of this machine, whose error is checked; an accuracy of 1e-12 or more.
+std::unique_ptr<FastEvaluator> make_checked_fast(std::string_view kernel, EvaluatorOptions const& options);
 
 }  // namespace asterflow

@@ -27,14 +27,20 @@ double square(ConstPoints points) {
   return sum;
 }
 
-class CheckedFast final : public Evaluator {
+class CheckedFast final : public FastEvaluator {
  public:
   CheckedFast(std::string_view kernel, EvaluatorOptions const& options, FastInstructions instructions, std::string_view name)
       : kernel_(kernel), options_(options), instructions_(instructions), name_(name) {}
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
-    if (!first_) first_ = make_sum(options_.accuracy);
-    first_->set_points(sources, targets, normals);
+    set_points(sources, targets, normals, 
+               best_plan(kernel_, sources, targets, fast_parameters(kernel_, options_.accuracy, options_.gradient)));
+  }
+
+  void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals, Plan const& plan) override {
+    if (!first_)
+      first_ = make_fast(kernel_, fast_parameters(kernel_, options_.accuracy, options_.gradient), instructions_, name_);
+    first_->set_points(sources, targets, normals, plan);
     stricter_.reset();
     accuracy_ = options_.accuracy;
     is_strictest_ = accuracy_ == strictest;
@@ -56,7 +62,7 @@ class CheckedFast final : public Evaluator {
   std::string_view backend() const override { return name_; }
   std::size_t memory() const override {
     std::size_t bytes = sizeof(Vec3d) * (sources_.capacity() + targets_.capacity() + normals_.capacity());
-    for (Evaluator const* part : {first_.get(), stricter_.get(), exact_.get()}) bytes += part ? part->memory() : 0;
+    for (Evaluator const* part : {static_cast<Evaluator*>(first_.get()), stricter_.get(), exact_.get()}) bytes += part ? part->memory() : 0;
     return bytes;
   }
 
@@ -143,8 +149,9 @@ class CheckedFast final : public Evaluator {
   bool is_self_ = false;   // targets are the sources
   PointArray sources_, targets_, normals_;
   std::vector<Checked> checked_;
-  std::unique_ptr<Evaluator> first_, stricter_;  // stricter_: in place of first_ where that was not enough
-  std::unique_ptr<Evaluator> exact_;             // at the checked targets
+  std::unique_ptr<FastEvaluator> first_;
+  std::unique_ptr<Evaluator> stricter_;  // in place of first_ where that was not enough
+  std::unique_ptr<Evaluator> exact_;     // at the checked targets
 };
 
 template <FastInstructions instructions>
@@ -172,10 +179,16 @@ std::unique_ptr<Evaluator> make_fast_device(std::string_view kernel, EvaluatorOp
 }
 
 std::unique_ptr<Evaluator> make_fast(std::string_view kernel, EvaluatorOptions const& options) {
-  if (!default_space_is_host) return make<FastInstructions::device>(kernel, options, "fast");
-  if (has_avx512()) return make<FastInstructions::avx512>(kernel, options, "fast");
-  if (has_avx2()) return make<FastInstructions::avx2>(kernel, options, "fast");
-  return make<FastInstructions::portable>(kernel, options, "fast");
+  if (options.accuracy < strictest) return make_direct(kernel, options);
+  return make_checked_fast(kernel, options);
+}
+
+std::unique_ptr<FastEvaluator> make_checked_fast(std::string_view kernel, EvaluatorOptions const& options) {
+  FastInstructions const best = !default_space_is_host ? FastInstructions::device
+                                : has_avx512()         ? FastInstructions::avx512
+                                : has_avx2()           ? FastInstructions::avx2
+                                                       : FastInstructions::portable;
+  return std::make_unique<CheckedFast>(kernel, options, best, "fast");
 }
 
 }  // namespace asterflow

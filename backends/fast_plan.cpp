@@ -1,6 +1,8 @@
 #include "backends/fast_plan.hpp"
 
 #include "backends/fast_cover.hpp"
+#include "backends/fast_kernel.hpp"
+#include "backends/finite.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -125,8 +127,12 @@ Plan best_first_level(Octree const& tree, FastParameters const& p, int component
 
 }  // namespace
 
-Plan best_plan(ConstPoints sources, ConstPoints targets, FastParameters const& p, int components) {
+Plan best_plan(std::string_view kernel, ConstPoints sources, ConstPoints targets, FastParameters const& p) {
+  require_finite(sources, "source");
+  require_finite(targets, "target");
+  int const components = n_component(fast_kernel(kernel));
   long const n = static_cast<long>(sources.size() + targets.size()) / 2;
+  if (sources.empty() || targets.empty() || n <= p.capacity) return {};
   // Some of the points are enough to compare.
   long const stride = std::clamp(n / (p.single ? 2500 : 6000), 1L, 16L);
   Thinned const few(sources, targets, stride);

@@ -15,7 +15,7 @@ struct Plan {
   double cost = 0.0;  // predicted, of one sum, in nanoseconds of one core
 };
 
-// components: of the strengths on the grid.
-Plan best_plan(ConstPoints sources, ConstPoints targets, FastParameters const& parameters, int components);
+// Throws SceneError when a coordinate is not finite. Nothing is predicted for points so few that direct sums are taken.
+Plan best_plan(std::string_view kernel, ConstPoints sources, ConstPoints targets, FastParameters const& parameters);
 
 }  // namespace asterflow

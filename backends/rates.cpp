@@ -85,7 +85,7 @@ class Trial {
 };
 
 double plan_cost(std::string_view kernel, double accuracy, ConstPoints points) {
-  return best_plan(points, points, fast_parameters(kernel, accuracy), n_component(fast_kernel(kernel))).cost;
+  return best_plan(kernel, points, points, fast_parameters(kernel, accuracy)).cost;
 }
 
 }  // namespace
