@@ -107,7 +107,7 @@ double level_cost(Octree const& tree, FastParameters const& p, Costs const& c, s
 
 // The cheapest first level for an octree that holds one of every `thinning` points.
 Plan best_first_level(Octree const& tree, FastParameters const& p, int components, double thinning) {
-  constexpr int deepest_first = 3;
+  constexpr int deepest_first = 5;
   Costs const c = costs(p, components);
   double const n = 0.5 * thinning * static_cast<double>(tree.sources().size() + tree.targets().size());
   double const max_nodes = p.max_nodes(static_cast<std::size_t>(n));
