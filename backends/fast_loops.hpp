@@ -88,11 +88,19 @@ struct NearWork {
 // Which sources may lie within `reach` of a group of targets, all in normalised float coordinates.
 struct NearQuery {
   static constexpr int max_target = 32;
+  static constexpr float touch = 1e-6f;  // distances below it may be rounding
   float const* sources[3];
   float low[3], high[3];  // box of the targets
   float targets[3][max_target];
   int n_target;
   float reach;
+};
+
+// Where a search for sources writes, with room for as many as are searched + NearQuery::max_target: the sources in reach,
+// and the places among them of those that may touch a target.
+struct NearFound {
+  std::uint16_t *sources, *touching;
+  long n_source = 0, n_touching = 0;
 };
 
 template <class Real>
@@ -123,9 +131,8 @@ struct FastLoops {
   // velocity [n, 3] += local part; likewise gradient [n, 3, 3] unless null.
   void (*add_near)(NearWork<Real> const&, double* velocity, double* gradient) = nullptr;
 
-  // Writes s - base for the sources s in begin ... end - 1 that the query finds; returns their number. `found`
-  // has room for end - begin + 16.
-  long (*list_near)(NearQuery const&, long begin, long end, long base, std::uint16_t* found) = nullptr;
+  // Writes s - base for the sources s in begin ... end - 1 that the query finds.
+  void (*list_near)(NearQuery const&, long begin, long end, long base, NearFound& found) = nullptr;
 };
 
 // Call the loops only on a processor that has the instructions.

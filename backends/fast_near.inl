@@ -196,11 +196,10 @@ inline unsigned lanes_below(Pack<float> x, float limit) {
 }
 
 // First against the box of the targets, then against each of them.
-inline long list_near(NearQuery const& query, long begin, long end, long base, std::uint16_t* found) {
+inline void list_near(NearQuery const& query, long begin, long end, long base, NearFound& found) {
   using F = Pack<float>;
   constexpr int W = lanes<float>;
   float const reach2 = query.reach * query.reach;
-  long n_found = 0;
   for (long s = begin; s < end; s += W) {
     F x[3], r2{};
     for (int d = 0; d < 3; ++d) {
@@ -221,9 +220,12 @@ inline long list_near(NearQuery const& query, long begin, long end, long base, s
     }
     unsigned hits = lanes_below(least, reach2);
     if (end - s < W) hits &= (1u << (end - s)) - 1u;
-    for (; hits != 0; hits &= hits - 1) found[n_found++] = static_cast<std::uint16_t>(s + __builtin_ctz(hits) - base);
+    unsigned const touching = hits & lanes_below(least, NearQuery::touch * NearQuery::touch);
+    for (; hits != 0; hits &= hits - 1) {
+      if (touching & hits & -hits) found.touching[found.n_touching++] = static_cast<std::uint16_t>(found.n_source);
+      found.sources[found.n_source++] = static_cast<std::uint16_t>(s + __builtin_ctz(hits) - base);
+    }
   }
-  return n_found;
 }
 
 }  // namespace

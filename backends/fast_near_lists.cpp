@@ -116,13 +116,14 @@ void NearLists::append_near(NearQuery const& query, NearGroup const& group, Cand
   bool const joins = leaf.segments.size() > first_segment && leaf.segments.back().level == from.level &&
                      from.sources.end - leaf.segments.back().base <= list_span;
   long const base = joins ? leaf.segments.back().base : from.sources.begin;
-  static thread_local std::vector<std::uint16_t> found;
-  found.resize(std::max(found.size(), static_cast<std::size_t>(from.sources.size()) + NearQuery::max_target));
-  long const n = find_(query, from.sources.begin, from.sources.end, base, found.data());
-  std::size_t const before = leaf.list.size();
-  leaf.list.insert(leaf.list.end(), found.begin(), found.begin() + n);
-  if (sets_close_apart_) set_close_apart(query, group, from, static_cast<std::uint32_t>(base), before, leaf);
-  if (leaf.list.size() == before) return;
+  static thread_local std::vector<std::uint16_t> space[2];
+  std::size_t const most = static_cast<std::size_t>(from.sources.size()) + NearQuery::max_target;
+  for (auto& numbers : space) numbers.resize(std::max(numbers.size(), most));
+  NearFound found{space[0].data(), space[1].data()};
+  find_(query, from.sources.begin, from.sources.end, base, found);
+  if (sets_close_apart_) set_close_apart(group, from.level, static_cast<std::uint32_t>(base), found, leaf);
+  if (found.n_source == 0) return;
+  leaf.list.insert(leaf.list.end(), found.sources, found.sources + found.n_source);
   auto const end = static_cast<std::uint32_t>(leaf.list.size());
   if (joins)
     leaf.segments.back().end = end;
@@ -130,23 +131,19 @@ void NearLists::append_near(NearQuery const& query, NearGroup const& group, Cand
     leaf.segments.push_back({static_cast<std::uint32_t>(base), end, from.level});
 }
 
-// Moves the sources that nearly touch a target from the list, from position `first` on, to leaf.close.
-void NearLists::set_close_apart(NearQuery const& query, NearGroup const& group, Candidates const& from,
-                                      std::uint32_t base, std::size_t first, Leaf& leaf) const {
-  constexpr float slack = 1e-6f;  // rounding of normalised float coordinates
-  float low[3], high[3];
-  for (int d = 0; d < 3; ++d) low[d] = query.low[d] - slack, high[d] = query.high[d] + slack;
-  float const *const x = filter_[0].data() + base, *const y = filter_[1].data() + base, *const z = filter_[2].data() + base;
-  auto const is_apart = [&](std::uint16_t i) {
-    return x[i] < low[0] || x[i] > high[0] || y[i] < low[1] || y[i] > high[1] || z[i] < low[2] || z[i] > high[2] ||
-           !is_close(group.target, group.n_target, base + i);
-  };
-  auto const begin = leaf.list.begin() + static_cast<long>(first);
-  if (std::all_of(begin, leaf.list.end(), is_apart)) return;
-  auto const kept = std::stable_partition(begin, leaf.list.end(), is_apart);
-  for (auto place = kept; place != leaf.list.end(); ++place) leaf.close.push_back(base + *place);
-  leaf.close_levels.resize(leaf.close.size(), from.level);
-  leaf.list.erase(kept, leaf.list.end());
+// Moves the sources that nearly touch a target from those found to leaf.close.
+void NearLists::set_close_apart(NearGroup const& group, int level, std::uint32_t base, NearFound& found, Leaf& leaf) const {
+  long n_moved = 0;
+  for (long k = 0; k < found.n_touching; ++k) {
+    long const place = found.touching[k] - n_moved;
+    std::uint32_t const source = base + found.sources[place];
+    if (!is_close(group.target, group.n_target, source)) continue;
+    leaf.close.push_back(source);
+    std::copy(found.sources + place + 1, found.sources + found.n_source, found.sources + place);
+    --found.n_source;
+    ++n_moved;
+  }
+  leaf.close_levels.resize(leaf.close.size(), level);
 }
 
 NearLists::Leaf NearLists::list_sources(int level, Box const& box) const {

@@ -18,7 +18,7 @@ class NearLists {
     std::vector<std::uint32_t> close;  // sources too close to a target for float coordinates
     std::vector<int> close_levels;
   };
-  using Finder = long(NearQuery const&, long begin, long end, long base, std::uint16_t* found);
+  using Finder = void(NearQuery const&, long begin, long end, long base, NearFound& found);
 
   // group_size: targets of a group, at most NearQuery::max_target; find: see FastLoops::list_near.
   NearLists(int group_size, bool sets_close_apart, Finder* find)
@@ -48,8 +48,7 @@ class NearLists {
   NearQuery query(long first, int n) const;
   void append_near(NearQuery const& query, NearGroup const& group, Candidates const& from, std::size_t first_segment,
                    Leaf& leaf) const;
-  void set_close_apart(NearQuery const& query, NearGroup const& group, Candidates const& from, std::uint32_t base,
-                       std::size_t first, Leaf& leaf) const;
+  void set_close_apart(NearGroup const& group, int level, std::uint32_t base, NearFound& found, Leaf& leaf) const;
   bool is_close(long target, int n_target, std::uint32_t source) const;
 
   int group_size_;
