@@ -2,11 +2,13 @@
 
 #include "base/timer.hpp"
 #include "io/scene.hpp"
+#include "system/flows.hpp"
 #include "system/simulation.hpp"
 
 #include <fmt/format.h>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <sys/resource.h>
 
 namespace asterflow {
@@ -47,6 +49,16 @@ void print_limit(std::string const& name, ShapeSpec const& spec, int order_in_sc
                                    resolved, accuracy, order_in_scene > 0 ? "" : "; set its order to go beyond"));
 }
 
+// How well the flow is known where fibers and the cortex are close.
+void print_flow_near_cortex(Scene const& scene) {
+  Surface const surface(make_shape(scene.periphery->shape),
+                        surface_order(scene.periphery->shape, scene.periphery->order, scene.run.accuracy));
+  if (auto const wall = wall_of_images(scene, surface))
+    print_line("near cortex", fmt::format("within {:.2g} um, flow of forces as close has an error of up to about {:.0e} of their flow "
+                                          "without a cell", std::numbers::pi * surface.shape().size() / surface.order(),
+                                          wall->nearby_error()));
+}
+
 // Prints the scene's objects; returns the number of surface nodes.
 long print_objects(Scene const& scene) {
   long n_node = 0;
@@ -58,7 +70,10 @@ long print_objects(Scene const& scene) {
     n_node += n;
     print_line("periphery", shape_words(scene.periphery->shape) +
                                 (is_flow ? fmt::format(", {} nodes", n) : ", stops fibers, no flow"));
-    if (is_flow) print_limit("periphery", scene.periphery->shape, scene.periphery->order, scene.run.accuracy);
+    if (is_flow) {
+      print_limit("periphery", scene.periphery->shape, scene.periphery->order, scene.run.accuracy);
+      print_flow_near_cortex(scene);
+    }
   }
   for (auto const& body : scene.bodies) {
     int const n = surface_nodes(body.shape, body.order, scene.run.accuracy);

@@ -88,7 +88,7 @@ int refined_order(double error, int order, double accuracy) {
   return std::clamp(static_cast<int>(std::ceil(1.1 * std::log(30.0 * accuracy) / rate)), order + 4, 2 * order);
 }
 
-// Loads of all bodies, and those with half the order.
+// Loads of all bodies, and those with a coarser order.
 struct Loads {
   MatrixXd fine, rough;
   int iterations = 0, rough_order = 0;

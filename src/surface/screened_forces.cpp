@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "kernels/stokeslet.hpp"
+#include "surface/curvature_image.hpp"
 #include "surface/graded_rule.hpp"
 #include "surface/modal_boundary.hpp"
 #include "surface/plane_image.hpp"
@@ -43,31 +44,36 @@ void fill_legendre(double t, Eigen::Ref<MatrixXd> p) {
 struct ScreenedForces::Place {
   Vec3d position, foot, normal;  // normal: into the fluid
   double t, distance;            // of the foot
+  LocalGeometry shape;           // tangents as the rest
 };
 
-ScreenedForces::ScreenedForces(Surface const& surface, double deepest, double accuracy)
-    : surface_(surface), deepest_(deepest), n_ring_(surface.grid().n_ring()), places_(surface.order() + extra_order),
-      table_(places_, n_shell, InterpolationWindow::width_for(accuracy), 2.0), transform_(surface.grid().n_azimuth()) {
-  ASTERFLOW_REQUIRE(surface.axisymmetric() && surface.grading().uniform());
+ScreenedForces::ScreenedForces(ImageWall const& wall, double accuracy)
+    : wall_(wall), surface_(wall.surface()), n_ring_(surface_.grid().n_ring()), places_(surface_.order() + extra_order),
+      table_(places_, n_shell, InterpolationWindow::width_for(accuracy), 2.0), transform_(surface_.grid().n_azimuth()) {
+  ASTERFLOW_REQUIRE(surface_.axisymmetric() && surface_.grading().uniform() && !wall.is_body());
   MatrixXd legendre(n_ring_, n_ring_ + 1);
   basis_at_rings_.assign(n_ring_ + 1, MatrixXd(n_ring_, n_ring_));
   for (int j = 0; j < n_ring_; ++j) {
-    fill_legendre(surface.grid().polar_angles()[j], legendre);
+    fill_legendre(surface_.grid().polar_angles()[j], legendre);
     for (int m = 0; m <= n_ring_; ++m) basis_at_rings_[m].row(j) = legendre.col(m).transpose();
   }
   assemble(accuracy);
 }
 
-TablePoint ScreenedForces::locate(Vec3d closest_direction, double distance) const {
-  ASTERFLOW_REQUIRE(distance >= 0.0 && distance <= deepest_);
-  return ShellTable::locate(2.0 / pi * std::asin(std::sqrt(distance / deepest_)), surface_.to_polar(closest_direction));
+TablePoint ScreenedForces::locate(Vec3d direction, double distance_over_reach) const {
+  ASTERFLOW_REQUIRE(distance_over_reach >= 0.0 && distance_over_reach <= ImageWall::deepest);
+  return ShellTable::locate(2.0 / pi * std::asin(std::sqrt(distance_over_reach / ImageWall::deepest)),
+                            surface_.to_polar(direction));
 }
 
 ScreenedForces::Place ScreenedForces::place(int ring, int shell) const {
-  double const t = places_.polar_angles()[ring], distance = (1.0 - shell_scale(shell, n_shell)) * deepest_;
+  double const t = places_.polar_angles()[ring];
+  LocalGeometry shape = local_geometry(surface_.shape(), surface_.from_polar({std::cos(t), std::sin(t), 0.0}));
+  double const distance = (1.0 - shell_scale(shell, n_shell)) * ImageWall::deepest * wall_.reach(shape);
+  for (Vec3d& tangent : shape.tangent) tangent = surface_.to_polar(tangent);
   SurfacePatch const patch = surface_.patch(t, 0.0);
   Vec3d const foot = surface_.to_polar(patch.position), inwards = surface_.to_polar(-1.0 * normalized(patch.area_vector()));
-  return {foot + distance * inwards, foot, inwards, t, distance};
+  return {foot + distance * inwards, foot, inwards, t, distance, shape};
 }
 
 namespace {
@@ -114,10 +120,13 @@ void ScreenedForces::ring_velocities(Place const& place, Vec3d ring, double digi
   for (int c = 0; c < 3; ++c) {
     Vec3d force;
     force[c] = 1.0;
-    PlaneImage<double> const image(force, place.foot, place.normal, place.distance);
+    PlaneImage<double> const plane(force, place.foot, place.normal, place.distance);
+    CurvatureImage<double> const curvature(force, place.foot, place.normal, place.distance, place.shape);
     for (long first = 0; first < n; first += n_lane<double>) {
       LanesOfVectors<double> v;
-      image.add(gather<double>(points, first, n - first), v);
+      auto const x = gather<double>(points, first, n - first);
+      plane.add(x, v);
+      if (wall_.has_curvature()) curvature.add(x, v);
       for (long k = first; k < std::min(n, first + n_lane<double>); ++k) {
         Vec3d const direct = Stokeslet::velocity(points[k] - place.position, force);
         Lanes<double> const* const of_image[3] = {&v.x, &v.y, &v.z};

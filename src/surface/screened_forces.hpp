@@ -1,5 +1,5 @@
 #pragma once
-// Velocity of point forces close to an axisymmetric wall, together with their images behind it (plane_image.hpp), on that
+// Velocity of point forces close to an axisymmetric wall, together with their images behind it (image_wall.hpp), on that
 // wall, projected onto the functions that its nodes resolve:
 //   w = P sum_j K(., y_j) f_j,   K Stokeslet and image for viscosity 1.
 // What the image leaves of a force at the distance d is largest on a spot of the size d. Where the nodes are farther apart,
@@ -7,23 +7,25 @@
 // cannot hold and keeps the rest: it is right wherever the spot's details are no longer felt.
 // P K(., y) is a smooth function of y up to the wall. So it is tabulated in the place of the force, as the solution is in the
 // target, with the adjoint of interpolation (shell_table.hpp): foot of the force on the wall and distance,
-//   distance = deepest (1 - cos psi) / 2.
+//   distance = deepest reach (1 - cos psi) / 2,   deepest, reach: image_wall.hpp.
 // P keeps the spherical harmonics of degree <= p of the Cartesian components, as functions of the direction d of X(d).
 
 #include "surface/azimuth_transform.hpp"
 #include "surface/graded_rule.hpp"
+#include "surface/image_wall.hpp"
 #include "surface/shell_table.hpp"
-#include "surface/surface.hpp"
 
 namespace asterflow {
 
 class ScreenedForces {
  public:
-  // Forces inside the surface, to which a reference is kept; deepest: um, below its radii of curvature.
-  ScreenedForces(Surface const& surface, double deepest, double accuracy);
+  // wall: of a cell.
+  ScreenedForces(ImageWall const& wall, double accuracy);
 
-  // closest: point of the wall to the force; distance in [0, deepest].
-  TablePoint locate(Vec3d closest_direction, double distance) const;
+  ImageWall const& wall() const { return wall_; }
+
+  // Of a force with images at the distance from the point of the wall that has that direction.
+  TablePoint locate(Vec3d direction, double distance_over_reach) const;
 
   // velocity [n_node] += w of forces (pN over viscosity). Calls on one object must not overlap: they share work arrays.
   void add_velocity(std::vector<TablePoint> const& points, ConstPoints forces, Points velocity) const;
@@ -39,8 +41,8 @@ class ScreenedForces {
   ModalColumns project(Place const& place, double digits) const;
   void assemble(double accuracy);
 
+  ImageWall wall_;
   Surface const& surface_;
-  double deepest_;
   int n_ring_;
   SphereGrid places_;  // feet of forces
   ShellTable table_;

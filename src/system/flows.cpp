@@ -3,6 +3,8 @@
 namespace asterflow {
 namespace {
 
+constexpr double plane_images_suffice = 0.9e-4;  // accuracy; images that follow the curvature of a cell cost five times as much
+
 // Builds each flow once.
 class FlowLibrary {
  public:
@@ -38,12 +40,15 @@ SceneFlows make_flows(Scene const& scene) {
   for (auto const& body : scene.bodies) flows.bodies.push_back(library.get(body.shape, body.order, Side::exterior));
   if (scene.run.interactions == Interactions::confined && scene.periphery)
     flows.periphery = library.get(scene.periphery->shape, scene.periphery->order, Side::interior);
-  bool const has_fibers = !scene.fibers.empty() || !scene.asters.empty();
-  if (flows.periphery && has_fibers && scene.run.images != ImagesBehind::nothing) {
-    Surface const& wall = flows.periphery->surface();
-    flows.near_periphery = make_screened_forces(wall, image_reach(wall, Side::interior), scene.run.accuracy);
-  }
+  if (flows.periphery) flows.near_periphery = wall_of_images(scene, flows.periphery->surface());
+  if (flows.near_periphery) flows.screened_forces = make_screened_forces(*flows.near_periphery, scene.run.accuracy);
   return flows;
+}
+
+std::optional<ImageWall> wall_of_images(Scene const& scene, Surface const& periphery) {
+  bool const has_fibers = !scene.fibers.empty() || !scene.asters.empty();
+  if (!has_fibers || scene.run.interactions != Interactions::confined || scene.run.images == ImagesBehind::nothing) return {};
+  return ImageWall(periphery, Side::interior, scene.run.accuracy < plane_images_suffice);
 }
 
 RadiationOptions radiation_options(Scene const& scene, SceneFlows const& flows) {
@@ -52,7 +57,8 @@ RadiationOptions radiation_options(Scene const& scene, SceneFlows const& flows) 
           .accuracy = scene.run.evaluator_accuracy,
           .has_images_behind_periphery = scene.run.images != ImagesBehind::nothing,
           .has_images_in_bodies = scene.run.images == ImagesBehind::everything,
-          .near_periphery = flows.near_periphery};
+          .near_periphery = flows.near_periphery,
+          .screened_forces = flows.screened_forces};
 }
 
 std::unique_ptr<Radiation> make_radiation(Scene const& scene, SceneFlows const& flows) {

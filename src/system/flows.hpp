@@ -9,10 +9,14 @@ namespace asterflow {
 struct SceneFlows {
   std::vector<Radiation::Flow> bodies;
   Radiation::Flow periphery;  // null unless the scene is confined
-  std::shared_ptr<ScreenedForces const> near_periphery;  // null unless there are fibers with images behind it
+  std::optional<ImageWall> near_periphery;                // none unless there are fibers with images behind it
+  std::shared_ptr<ScreenedForces const> screened_forces;  // null there too, and at a triaxial periphery
 };
 
 SceneFlows make_flows(Scene const& scene);
+
+// The periphery as images behind it see it; none unless it confines fibers that have images.
+std::optional<ImageWall> wall_of_images(Scene const& scene, Surface const& periphery);
 
 RadiationOptions radiation_options(Scene const& scene, SceneFlows const& flows);
 

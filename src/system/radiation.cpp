@@ -44,11 +44,12 @@ Radiation::Radiation(std::vector<Flow> body_flows, Flow periphery_flow, Radiatio
     : bodies_(std::move(body_flows)), periphery_(std::move(periphery_flow)), options_(std::move(options)) {
   for (Flow const& body : bodies_) {
     mobilities_.push_back(body->resistance().inverse());
-    images_.emplace_back(body->surface(), Side::exterior, image_reach(body->surface(), Side::exterior));
+    images_.emplace_back(ImageWall(body->surface(), Side::exterior, false));
   }
-  if (periphery_)
-    images_.emplace_back(periphery_->surface(), Side::interior, image_reach(periphery_->surface(), Side::interior),
-                         options_.near_periphery);
+  if (periphery_ && options_.has_images_behind_periphery) {
+    if (!options_.near_periphery) options_.near_periphery.emplace(periphery_->surface(), Side::interior, false);
+    images_.emplace_back(*options_.near_periphery, options_.screened_forces);
+  }
 }
 
 Radiation::~Radiation() = default;
@@ -155,7 +156,9 @@ void Radiation::add_images(bool is_rough, Points received) const {
   for (std::size_t i = 0; i < images_.size(); ++i) {
     bool const takes_samples = is_rough || i < bodies_.size();  // at the nodes of the wall itself
     std::size_t const n = takes_samples ? nodes.size() : first_.back();
-    if (is_rough || options_.accuracy >= single_precision)
+    if (is_rough)
+      images_[i].add_rough_velocity(strengths_, nodes.first(n), received.first(n));
+    else if (options_.accuracy >= single_precision)
       images_[i].add_velocity<float>(strengths_, nodes.first(n), received.first(n));
     else
       images_[i].add_velocity<double>(strengths_, nodes.first(n), received.first(n));

@@ -16,6 +16,7 @@
 #include "system/wall_images.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,8 @@ struct RadiationOptions {
   std::string evaluator = "auto";
   double accuracy = 1e-6;  // of the pair sums
   bool has_images_behind_periphery = true, has_images_in_bodies = true;
-  std::shared_ptr<ScreenedForces const> near_periphery = nullptr;  // what its nodes take of forces close to it; null: samples
+  std::optional<ImageWall> near_periphery = std::nullopt;            // as images behind it see it; none: a plane wall at every foot
+  std::shared_ptr<ScreenedForces const> screened_forces = nullptr;  // what its nodes take of forces close to it; null: samples
 };
 
 // As accurate as asked for, or at a fraction of the cost: for the inside of a preconditioner.

@@ -2,7 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "kernels/stokeslet.hpp"
-#include "surface/dirichlet_flow.hpp"
+#include "surface/curvature_image.hpp"
 #include "surface/plane_image.hpp"
 #include "system/stokeslet_lanes.hpp"
 
@@ -15,52 +15,30 @@ namespace {
 
 constexpr double negligible = 1e-3;  // nearness
 constexpr double closest = 1e-3;     // least distance over w: forces may lie on the wall
-constexpr double deepest = 1.28;     // over reach: where nearness is negligible
-
-double smallest_radius_of_curvature(Surface const& wall) {
-  constexpr double step = 1e-3;
-  double largest = 0.0;  // curvature along both grid lines
-  for (double const t : wall.grid().polar_angles())
-    for (int k = 0; k < wall.grid().n_azimuth(); ++k) {
-      double const phi = wall.grid().azimuth(k);
-      SurfacePatch const at = wall.patch(t, phi);
-      for (auto const& [dt, dphi] : {std::pair{step, 0.0}, std::pair{0.0, step}}) {
-        SurfacePatch const next = wall.patch(t + dt, phi + dphi);
-        largest = std::max(largest, norm(normalized(next.area_vector()) - normalized(at.area_vector())) /
-                                        norm(next.position - at.position));
-      }
-    }
-  return 1.0 / largest;
-}
 
 }  // namespace
 
-// Nodes that are h apart resolve a force at the distance d to exp(-pi d / h), curvature leaves d / (2 radius) of one with an
-// image. Images stay well within a thin body; forces, on the near side of a cell's axis.
-double image_reach(Surface const& wall, Side side) {
-  double const size = wall.shape().size(), spacing = std::numbers::pi * size / wall.order();
-  if (side == Side::exterior) return std::min(spacing, 0.6 * size / wall.shape().aspect_ratio());
-  return std::min(1.5 * spacing, 0.45 * smallest_radius_of_curvature(wall));
+std::shared_ptr<ScreenedForces const> make_screened_forces(ImageWall const& periphery, double accuracy) {
+  return periphery.surface().axisymmetric() ? std::make_shared<ScreenedForces const>(periphery, accuracy) : nullptr;
 }
 
-std::shared_ptr<ScreenedForces const> make_screened_forces(Surface const& periphery, double reach, double accuracy) {
-  if (!periphery.axisymmetric()) return nullptr;
-  return std::make_shared<ScreenedForces const>(periphery, deepest * reach, accuracy);
-}
-
-WallImages::WallImages(Surface const& wall, Side side, double reach, std::shared_ptr<ScreenedForces const> screened)
-    : wall_(&wall), is_body_(side == Side::exterior), reach_(reach), screened_(std::move(screened)) {}
+WallImages::WallImages(ImageWall const& wall, std::shared_ptr<ScreenedForces const> screened)
+    : wall_(wall), screened_(std::move(screened)) {}
 
 void WallImages::place(RigidPose const& pose, ConstPoints positions, ConstVector weights, std::vector<std::size_t> const& first) {
-  centre_ = pose.point(wall_->shape().centre());
-  double const outwards = is_body_ ? 1.0 : -1.0;
+  Shape const& shape = wall_.surface().shape();
+  centre_ = pose.point(shape.centre());
+  double const outwards = wall_.is_body() ? 1.0 : -1.0;
   std::vector<Image> all(positions.size());
   parallel_for("WallImages::place", static_cast<long>(first.size()) - 1, [&](long fiber) {
     for (std::size_t i = first[fiber]; i < first[fiber + 1]; ++i) {
-      ClosestPoint const at = wall_->shape().closest_point(pose.rotation.transpose() * (positions[i] - pose.position));
+      ClosestPoint const at = shape.closest_point(pose.rotation.transpose() * (positions[i] - pose.position));
       double const distance = std::max(outwards * at.distance, closest * weights[i]);
+      if (distance > ImageWall::deepest * wall_.largest_reach()) continue;
+      LocalGeometry const local = local_geometry(shape, at.direction);
+      double const depth = distance / wall_.reach(local);
       all[i] = {i, first[fiber], first[fiber + 1], positions[i], pose.point(at.position), at.direction,
-                outwards * (pose.rotation * at.normal), std::exp(-std::pow(distance / reach_, 8)), distance,
+                outwards * (pose.rotation * at.normal), local, depth, std::exp(-std::pow(depth, 8)), distance,
                 std::max(distance, 0.5 * weights[i])};
     }
   });
@@ -69,7 +47,7 @@ void WallImages::place(RigidPose const& pose, ConstPoints positions, ConstVector
   std::copy_if(all.begin(), all.end(), std::back_inserter(images_),
                [](Image const& image) { return image.nearness > negligible; });
   if (screened_)
-    for (Image const& image : images_) places_.push_back(screened_->locate(image.direction, image.distance));
+    for (Image const& image : images_) places_.push_back(screened_->locate(image.direction, image.depth));
 }
 
 WallImages::Moments WallImages::moments(ConstPoints strengths) const {
@@ -100,20 +78,34 @@ void WallImages::add_centre(ConstPoints strengths, ConstPoints targets, Points v
 }
 
 template <class Real>
-void WallImages::add_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const {
+void WallImages::add_images(bool are_curved, ConstPoints strengths, ConstPoints targets, Points velocity) const {
   if (images_.empty()) return;
-  if (is_body_) add_centre(strengths, targets, velocity);
+  if (wall_.is_body()) add_centre(strengths, targets, velocity);
   std::vector<PlaneImage<Real>> images;
-  for (Image const& image : images_)
-    images.emplace_back(image.nearness * strengths[image.source], image.foot, image.normal, image.distance);
+  std::vector<CurvatureImage<Real>> curvatures;
+  for (Image const& image : images_) {
+    Vec3d const force = image.nearness * strengths[image.source];
+    images.emplace_back(force, image.foot, image.normal, image.distance);
+    if (are_curved) curvatures.emplace_back(force, image.foot, image.normal, image.distance, image.shape);
+  }
   auto const n = static_cast<long>(targets.size());
-  parallel_for("WallImages::add_velocity", (n + n_lane<Real> - 1) / n_lane<Real>, [&](long block) {
+  parallel_for("WallImages::add_images", (n + n_lane<Real> - 1) / n_lane<Real>, [&](long block) {
     long const first = block * n_lane<Real>, count = std::min(n_lane<Real>, n - first);
     auto const x = gather<Real>(targets, first, count);
     LanesOfVectors<Real> u;
     for (auto const& image : images) image.add(x, u);
+    for (auto const& image : curvatures) image.add(x, u);
     add_lanes(Stokeslet::prefactor, u, first, count, velocity);
   });
+}
+
+template <class Real>
+void WallImages::add_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const {
+  add_images<Real>(wall_.has_curvature(), strengths, targets, velocity);
+}
+
+void WallImages::add_rough_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const {
+  add_images<float>(false, strengths, targets, velocity);
 }
 
 template void WallImages::add_velocity<double>(ConstPoints, ConstPoints, Points) const;

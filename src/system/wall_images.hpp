@@ -5,8 +5,9 @@
 // it, as the wall's own flow makes up for it. So every close force gets the image that keeps a plane wall at rest
 // [Blake 1971, Eq. 9], at the mirrored point,
 //   u = -G f - 2 d (a . grad) G e + d^2 lap G a,   a = f - 2 (f . e) e,
-// G the Stokeslet, e the normal into the fluid, and the nodes see only what the curvature of the wall leaves of the force.
-// Images fade out where the nodes resolve forces by themselves (image_reach).
+// G the Stokeslet, e the normal into the fluid, and the nodes see only what the curvature of the wall leaves of the force;
+// less still where images follow the curvature (surface/curvature_image.hpp). Images fade out where the nodes resolve forces
+// by themselves (surface/image_wall.hpp).
 //
 // The nodes of an axisymmetric periphery receive what is left as its projection onto what they resolve instead of samples
 // (surface/screened_forces.hpp); samples will do inside a preconditioner.
@@ -19,19 +20,15 @@
 
 #include "base/rigid.hpp"
 #include "surface/screened_forces.hpp"
-#include "surface/surface.hpp"
 
 #include <memory>
 
 namespace asterflow {
 
-enum class Side;
-
 class WallImages {
  public:
-  // The fluid is on that side of the wall, to which a reference is kept. Images fade out where forces are `reach` (um) away.
-  // screened: of this wall and reach; null: nodes take samples.
-  WallImages(Surface const& wall, Side side, double reach, std::shared_ptr<ScreenedForces const> screened = nullptr);
+  // screened: of this wall; null: nodes take samples.
+  explicit WallImages(ImageWall const& wall, std::shared_ptr<ScreenedForces const> screened = nullptr);
 
   // The frame of the wall is at `pose`.
   // positions [n] um of forces and the lengths `weights` [n] um that they stand for; fiber i owns [first[i], first[i + 1]).
@@ -41,10 +38,11 @@ class WallImages {
   std::size_t size() const { return images_.size(); }
   std::size_t memory() const { return images_.capacity() * sizeof(Image); }  // bytes
 
-  // velocity [n_target] += flow of the images of `strengths` [n], pN over viscosity, at points in the fluid.
-  // Real: double, or float for the inside of a preconditioner.
+  // velocity [n_target] += flow of the images of `strengths` [n], pN over viscosity, at points in the fluid. Real: double or float.
   template <class Real>
   void add_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const;
+  // The same of plane images in single precision: for the inside of a preconditioner.
+  void add_rough_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const;
   // velocity [node] += flow of the images at the wall's own nodes, and of the forces what projection changes of its samples.
   void add_velocity_at_wall(ConstPoints strengths, ConstPoints wall_nodes, Points velocity) const;
   // velocity [n] at the forces += what a fiber feels of its own images, less that flow.
@@ -57,7 +55,9 @@ class WallImages {
     Vec3d foot;       // um, on the wall
     Vec3d direction;  // of the foot, in the frame of the wall
     Vec3d normal;     // e
-    double nearness;  // factor that fades images out, 0 to 1
+    LocalGeometry shape;  // of a periphery at the foot
+    double depth;     // d / reach
+    double nearness = 0.0;  // factor that fades images out, 0 to 1
     double distance;  // d, um
     double resolved;  // max(d, w / 2), um
   };
@@ -66,22 +66,19 @@ class WallImages {
     Matrix3 first = Matrix3::Zero();  // position x force, um^3/s
   };
 
+  template <class Real>
+  void add_images(bool are_curved, ConstPoints strengths, ConstPoints targets, Points velocity) const;
   Moments moments(ConstPoints strengths) const;
   void add_centre(ConstPoints strengths, ConstPoints targets, Points velocity) const;
 
-  Surface const* wall_;
-  bool is_body_;
-  double reach_;  // um, where images fade out
+  ImageWall wall_;
   Vec3d centre_;  // um, of a body
   std::vector<Image> images_;
   std::shared_ptr<ScreenedForces const> screened_;
   std::vector<TablePoint> places_;  // [image]
 };
 
-// Reach that suits the nodes and the curvature of the wall, um.
-double image_reach(Surface const& wall, Side side);
-
 // Of a periphery; null where it is not axisymmetric.
-std::shared_ptr<ScreenedForces const> make_screened_forces(Surface const& periphery, double reach, double accuracy);
+std::shared_ptr<ScreenedForces const> make_screened_forces(ImageWall const& periphery, double accuracy);
 
 }  // namespace asterflow

@@ -32,7 +32,7 @@ Vec3d const origin{1e5, 0, 0};
 TEST(WallImages, keep_a_plane_wall_at_rest) {
   PointArray const source{origin + Vec3d{-0.3, 0.1, 0.2}}, strength{{0.4, -0.7, 0.9}};
   Surface const wall = plane();
-  WallImages images(wall, Side::interior, image_reach(wall, Side::interior));
+  WallImages images(ImageWall(wall, Side::interior, false));
   images.place({}, source, std::vector{0.1}, {0, 1});
   for (double const r : {0.0, 0.1, 1.0, 10.0}) {
     PointArray const target{origin + Vec3d{-0.5e-5 * r * r, r, 0.3 * r}};
@@ -47,8 +47,9 @@ TEST(WallImages, keep_a_plane_wall_at_rest) {
 
 TEST(WallImages, of_a_fiber_act_on_it_from_no_closer_than_it_is_resolved) {
   PointArray const near{origin + Vec3d{-0.01, 0, 0}}, far{origin + Vec3d{-0.2, 0, 0}}, strength{{0.4, -0.7, 0.9}};
-  Surface const wall = plane();
-  WallImages close(wall, Side::interior, 1e3), resolved(wall, Side::interior, 1e3);
+  Surface const surface = plane();
+  ImageWall const wall(surface, Side::interior, false);
+  WallImages close(wall), resolved(wall);
   close.place({}, near, std::vector{0.4}, {0, 1});
   resolved.place({}, far, std::vector{0.4}, {0, 1});
   PointArray felt(1), expected(1);
@@ -60,7 +61,7 @@ TEST(WallImages, of_a_fiber_act_on_it_from_no_closer_than_it_is_resolved) {
 
 TEST(WallImages, are_not_made_of_distant_forces) {
   auto const flow = cell(20);
-  WallImages images(flow->surface(), Side::interior, image_reach(flow->surface(), Side::interior));
+  WallImages images(ImageWall(flow->surface(), Side::interior, false));
   images.place({}, PointArray{{0, 0, 0}, {5, 0, 0}}, std::vector{1.0, 1.0}, {0, 2});
   EXPECT_EQ(images.size(), 0u);  // nodes of the cell are 4 um apart
 }
@@ -70,7 +71,7 @@ TEST(WallImages, stay_within_a_thin_body) {
   spec.kind = ShapeSpec::Kind::ellipsoid;
   spec.semi_axes = {3, 0.3, 0.3};
   Surface const rod(make_shape(spec), 6);  // nodes 1.6 um apart
-  WallImages images(rod, Side::exterior, image_reach(rod, Side::exterior));
+  WallImages images(ImageWall(rod, Side::exterior, false));
   images.place({}, PointArray{{0, 1.0, 0}, {0, 0.4, 0}}, std::vector{0.1, 0.1}, {0, 2});
   EXPECT_EQ(images.size(), 1u);  // of the force at 0.1 um: that of the one at 0.7 um would lie beyond the rod
 }
