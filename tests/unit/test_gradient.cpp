@@ -2,8 +2,8 @@
 // incompressibility.
 
 #include "backends/evaluator.hpp"
-#include "base/random.hpp"
 #include "kernels/list.hpp"
+#include "point_sets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,27 +11,7 @@ using namespace asterflow;
 
 namespace {
 
-struct Points_with_strengths {
-  PointArray sources, targets, strengths, normals;
-};
-
-Vec3d random_vector(long i, int stream) {
-  return {uniform_random(3, i, stream, 0) - 0.5, uniform_random(3, i, stream, 1) - 0.5,
-          uniform_random(3, i, stream, 2) - 0.5};
-}
-
-Points_with_strengths random_points(std::string_view kernel, long n_source, long n_target) {
-  Points_with_strengths p;
-  for (long i = 0; i < n_source; ++i) {
-    p.sources.push_back(random_vector(i, 0));
-    p.strengths.push_back(random_vector(i, 1));
-    if (kernel == "stresslet") p.normals.push_back(normalized(random_vector(i, 2)));
-  }
-  for (long i = 0; i < n_target; ++i) p.targets.push_back(random_vector(i, 3));
-  return p;
-}
-
-PointArray gradient(std::string_view kernel, std::string const& backend, double accuracy, Points_with_strengths const& p) {
+PointArray gradient(std::string_view kernel, std::string const& backend, double accuracy, PointSet const& p) {
   auto const evaluator = make_evaluator(kernel, {.backend = backend, .accuracy = accuracy, .gradient = true});
   evaluator->set_points(p.sources, p.targets, p.normals);
   PointArray result(3 * p.targets.size());
@@ -39,16 +19,12 @@ PointArray gradient(std::string_view kernel, std::string const& backend, double 
   return result;
 }
 
-double relative_difference(PointArray const& a, PointArray const& exact) {
-  return (flat(ConstPoints(a)) - flat(ConstPoints(exact))).norm() / flat(ConstPoints(exact)).norm();
-}
-
 }  // namespace
 
 class Gradient : public testing::TestWithParam<std::string> {};
 
 TEST_P(Gradient, of_the_reference_is_the_limit_of_differences) {
-  Points_with_strengths p = random_points(GetParam(), 20, 10);
+  PointSet p = point_set(GetParam(), 20, 10);
   constexpr double step = 1e-5;
   PointArray differences(3 * p.targets.size());
   for (int axis = 0; axis < 3; ++axis)
@@ -66,7 +42,7 @@ TEST_P(Gradient, of_the_reference_is_the_limit_of_differences) {
 }
 
 TEST_P(Gradient, has_no_trace) {
-  Points_with_strengths const p = random_points(GetParam(), 900, 300);
+  PointSet const p = point_set(GetParam(), 900, 300);
   for (auto const& backend : backend_names()) {
     PointArray const g = gradient(GetParam(), backend, 1e-6, p);
     double trace2 = 0.0;
@@ -79,7 +55,7 @@ TEST_P(Gradient, has_no_trace) {
 }
 
 TEST_P(Gradient, honours_the_accuracy_with_every_backend) {
-  Points_with_strengths p = random_points(GetParam(), 1000, 700);
+  PointSet p = point_set(GetParam(), 1000, 700);
   for (bool is_self : {false, true}) {
     if (is_self) p.targets = p.sources;
     PointArray const exact = gradient(GetParam(), "reference", 1e-15, p);
@@ -91,7 +67,7 @@ TEST_P(Gradient, honours_the_accuracy_with_every_backend) {
 }
 
 TEST_P(Gradient, skips_coincident_points) {
-  Points_with_strengths p = random_points(GetParam(), 1000, 0);
+  PointSet p = point_set(GetParam(), 1000, 0);
   for (std::size_t i = 0; i < 500; ++i) p.sources[2 * i] = p.sources[2 * i + 1];
   p.targets = p.sources;
   PointArray const exact = gradient(GetParam(), "reference", 1e-15, p);
@@ -101,7 +77,7 @@ TEST_P(Gradient, skips_coincident_points) {
 }
 
 TEST_P(Gradient, of_the_fast_sum_honours_the_accuracy_where_velocities_cancel_or_targets_are_far) {
-  Points_with_strengths p = random_points(GetParam(), 2000, 1500);
+  PointSet p = point_set(GetParam(), 2000, 1500);
   for (std::size_t i = 0; i < 1000; ++i) {
     p.sources[2 * i + 1] = p.sources[2 * i] + 1e-3 * random_vector(static_cast<long>(i), 5);
     p.strengths[2 * i + 1] = -p.strengths[2 * i];

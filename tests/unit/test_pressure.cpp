@@ -1,8 +1,8 @@
 // Pressures: of the kernels, against the Stokes equation; of every backend, against the reference.
 
 #include "backends/evaluator.hpp"
-#include "base/random.hpp"
 #include "kernels/list.hpp"
+#include "point_sets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,6 @@
 using namespace asterflow;
 
 namespace {
-
-Vec3d random_vector(long i, int stream) {
-  return {uniform_random(5, i, stream, 0) - 0.5, uniform_random(5, i, stream, 1) - 0.5,
-          uniform_random(5, i, stream, 2) - 0.5};
-}
 
 // Laplacian of the velocity minus gradient of the pressure at r, by differences of fourth order.
 template <class Flow, class Pressure>
@@ -34,31 +29,12 @@ Vec3d residual(Vec3d r, Vec3d q, Vec3d n) {
   return sum;
 }
 
-struct Points_with_strengths {
-  PointArray sources, targets, strengths, normals;
-};
-
-Points_with_strengths random_points(std::string_view kernel, long n_source, long n_target) {
-  Points_with_strengths p;
-  for (long i = 0; i < n_source; ++i) {
-    p.sources.push_back(random_vector(i, 0));
-    p.strengths.push_back(random_vector(i, 1));
-    if (kernel == "stresslet_pressure") p.normals.push_back(normalized(random_vector(i, 2)));
-  }
-  for (long i = 0; i < n_target; ++i) p.targets.push_back(random_vector(i, 3));
-  return p;
-}
-
-PointArray pressure(std::string_view kernel, std::string const& backend, double accuracy, Points_with_strengths const& p) {
+PointArray pressure(std::string_view kernel, std::string const& backend, double accuracy, PointSet const& p) {
   auto const evaluator = make_evaluator(kernel, {backend, accuracy});
   evaluator->set_points(p.sources, p.targets, p.normals);
   PointArray result(p.targets.size());
   evaluator->add_velocity(p.strengths, result);
   return result;
-}
-
-double relative_difference(PointArray const& a, PointArray const& exact) {
-  return (flat(ConstPoints(a)) - flat(ConstPoints(exact))).norm() / flat(ConstPoints(exact)).norm();
 }
 
 }  // namespace
@@ -75,7 +51,7 @@ TEST(Pressures, balance_the_viscous_force) {
 }
 
 TEST_P(Pressure, honours_the_accuracy_with_every_backend) {
-  Points_with_strengths p = random_points(GetParam(), 2000, 1500);
+  PointSet p = point_set(GetParam(), 2000, 1500);
   for (bool is_self : {false, true}) {
     if (is_self) p.targets = p.sources;
     PointArray const exact = pressure(GetParam(), "reference", 1e-15, p);
@@ -87,10 +63,10 @@ TEST_P(Pressure, honours_the_accuracy_with_every_backend) {
 }
 
 TEST_P(Pressure, skips_coincident_points_and_does_not_depend_on_the_unit_of_length) {
-  Points_with_strengths p = random_points(GetParam(), 2000, 0);
+  PointSet p = point_set(GetParam(), 2000, 0);
   for (std::size_t i = 0; i < 1000; ++i) p.sources[2 * i] = p.sources[2 * i + 1];
   for (double unit : {1.0, 1e-8, 1e8}) {
-    Points_with_strengths scaled = p;
+    PointSet scaled = p;
     for (Vec3d& x : scaled.sources) x *= unit;
     scaled.targets = scaled.sources;
     PointArray const exact = pressure(GetParam(), "reference", 1e-15, scaled);
@@ -101,7 +77,7 @@ TEST_P(Pressure, skips_coincident_points_and_does_not_depend_on_the_unit_of_leng
 }
 
 TEST_P(Pressure, of_the_fast_sum_honours_the_accuracy_far_away) {
-  Points_with_strengths p = random_points(GetParam(), 2000, 400);
+  PointSet p = point_set(GetParam(), 2000, 400);
   for (Vec3d& x : p.targets) x = 300.0 * normalized(x);
   PointArray const exact = pressure(GetParam(), "reference", 1e-15, p);
   for (double accuracy : {1e-3, 1e-6})
