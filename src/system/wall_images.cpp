@@ -16,6 +16,19 @@ namespace {
 constexpr double negligible = 1e-3;  // nearness
 constexpr double closest = 1e-3;     // least distance over w: forces may lie on the wall
 
+// velocity += the flow of all images, in vector lanes of targets.
+template <class Real, class Image>
+void add_flows(char const* label, std::vector<Image> const& images, ConstPoints targets, Points velocity) {
+  auto const n = static_cast<long>(targets.size());
+  parallel_for(label, (n + n_lane<Real> - 1) / n_lane<Real>, [&](long block) {
+    long const first = block * n_lane<Real>, count = std::min(n_lane<Real>, n - first);
+    auto const x = gather<Real>(targets, first, count);
+    LanesOfVectors<Real> u;
+    for (Image const& image : images) image.add(x, u);
+    add_lanes(Stokeslet::prefactor, u, first, count, velocity);
+  });
+}
+
 }  // namespace
 
 std::shared_ptr<ScreenedForces const> make_screened_forces(ImageWall const& periphery, double accuracy) {
@@ -78,34 +91,27 @@ void WallImages::add_centre(ConstPoints strengths, ConstPoints targets, Points v
 }
 
 template <class Real>
-void WallImages::add_images(bool are_curved, ConstPoints strengths, ConstPoints targets, Points velocity) const {
+void WallImages::add_plane_images(ConstPoints strengths, ConstPoints targets, Points velocity) const {
   if (images_.empty()) return;
   if (wall_.is_body()) add_centre(strengths, targets, velocity);
   std::vector<PlaneImage<Real>> images;
-  std::vector<CurvatureImage<Real>> curvatures;
-  for (Image const& image : images_) {
-    Vec3d const force = image.nearness * strengths[image.source];
-    images.emplace_back(force, image.foot, image.normal, image.distance);
-    if (are_curved) curvatures.emplace_back(force, image.foot, image.normal, image.distance, image.shape);
-  }
-  auto const n = static_cast<long>(targets.size());
-  parallel_for("WallImages::add_images", (n + n_lane<Real> - 1) / n_lane<Real>, [&](long block) {
-    long const first = block * n_lane<Real>, count = std::min(n_lane<Real>, n - first);
-    auto const x = gather<Real>(targets, first, count);
-    LanesOfVectors<Real> u;
-    for (auto const& image : images) image.add(x, u);
-    for (auto const& image : curvatures) image.add(x, u);
-    add_lanes(Stokeslet::prefactor, u, first, count, velocity);
-  });
+  for (Image const& image : images_)
+    images.emplace_back(image.nearness * strengths[image.source], image.foot, image.normal, image.distance);
+  add_flows<Real>("WallImages::plane", images, targets, velocity);
 }
 
 template <class Real>
 void WallImages::add_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const {
-  add_images<Real>(wall_.has_curvature(), strengths, targets, velocity);
+  add_plane_images<Real>(strengths, targets, velocity);
+  if (!wall_.has_curvature()) return;
+  std::vector<CurvatureImage<float>> images;  // a small part, to first order: float is enough
+  for (Image const& image : images_)
+    images.emplace_back(image.nearness * strengths[image.source], image.foot, image.normal, image.distance, image.shape);
+  add_flows<float>("WallImages::curvature", images, targets, velocity);
 }
 
 void WallImages::add_rough_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const {
-  add_images<float>(false, strengths, targets, velocity);
+  add_plane_images<float>(strengths, targets, velocity);
 }
 
 template void WallImages::add_velocity<double>(ConstPoints, ConstPoints, Points) const;

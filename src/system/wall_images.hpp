@@ -67,7 +67,7 @@ class WallImages {
   };
 
   template <class Real>
-  void add_images(bool are_curved, ConstPoints strengths, ConstPoints targets, Points velocity) const;
+  void add_plane_images(ConstPoints strengths, ConstPoints targets, Points velocity) const;
   Moments moments(ConstPoints strengths) const;
   void add_centre(ConstPoints strengths, ConstPoints targets, Points velocity) const;
 
