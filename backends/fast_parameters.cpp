@@ -29,7 +29,7 @@ FastParameters fast_parameters(std::string_view kernel, double accuracy, bool gr
 }
 
 double FastParameters::max_nodes(std::size_t n_point) const {
-  return std::clamp(nodes_per_point * static_cast<double>(n_point), 2e4 * nodes_per_point, 6.4e7);
+  return std::clamp(nodes_per_point * static_cast<double>(n_point), 3.5e4 * nodes_per_point, 6.4e7);
 }
 
 }  // namespace asterflow
