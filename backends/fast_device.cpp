@@ -54,6 +54,7 @@ class DeviceParts final : public FastParts {
  private:
   // Waits for what was launched: the host reads the result.
   static void fetch(DeviceArray<double> const& array, Points points) {
+    if (points.empty()) return;
     Kokkos::View<double*, Kokkos::HostSpace, Kokkos::MemoryUnmanaged> const here(&points.data()->x, 3 * points.size());
     Kokkos::deep_copy(here, Kokkos::subview(array, std::make_pair(std::size_t{0}, 3 * points.size())));
   }
