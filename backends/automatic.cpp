@@ -24,8 +24,7 @@ class Automatic final : public Evaluator {
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
     if (auto const plan = cheaper_plan(sources, targets)) {
-      if (!fast_) fast_ = make_checked_fast(kernel_, options_);
-      fast_->set_points(sources, targets, normals, *plan);
+      fast_->set_planned_points(sources, targets, normals, *plan);
       used_ = fast_.get();
     } else {
       if (!direct_) direct_ = make_direct(kernel_, options_);
@@ -56,7 +55,8 @@ class Automatic final : public Evaluator {
     double const digits = -std::log10(options_.accuracy);
     double const usual = n * (90.0 * digits * digits + 400.0);  // ns, of a uniform cloud
     if (direct * clear < usual) return {};
-    Plan const plan = best_plan(kernel_, sources, targets, fast_parameters(kernel_, options_.accuracy, options_.gradient));
+    if (!fast_) fast_ = make_checked_fast(kernel_, options_);
+    Plan const plan = fast_->plan(sources, targets);
     if (direct > predicted_fast(plan.cost, n)) return plan;
     return {};
   }

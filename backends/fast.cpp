@@ -21,11 +21,11 @@ class FastSum final : public FastEvaluator {
   FastSum(std::string_view kernel, FastParameters const& parameters, FastInstructions instructions, std::string_view name)
       : name_(name), kernel_(kernel), parameters_(parameters), instructions_(instructions) {}
 
-  void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
-    set_points(sources, targets, normals, best_plan(kernel_, sources, targets, parameters_));
+  Plan plan(ConstPoints sources, ConstPoints targets) const override {
+    return best_plan(kernel_, sources, targets, parameters_);
   }
 
-  void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals, Plan const& plan) override {
+  void set_planned_points(ConstPoints sources, ConstPoints targets, ConstPoints normals, Plan const& plan) override {
     ASTERFLOW_REQUIRE(normals.size() == (has_normal(fast_kernel(kernel_)) ? sources.size() : 0));
     require_finite(normals, "normal");
     n_source_ = sources.size();

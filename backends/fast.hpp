@@ -7,11 +7,17 @@
 
 namespace asterflow {
 
-// Takes an octree that was planned for the points already, so that a choice by its cost need not be paid for twice.
+// Plans its octree apart from taking the points, so that a choice by the cost of the plan need not be paid for twice.
 class FastEvaluator : public Evaluator {
  public:
-  using Evaluator::set_points;
-  virtual void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals, Plan const& plan) = 0;
+  // See best_plan.
+  virtual Plan plan(ConstPoints sources, ConstPoints targets) const = 0;
+  // As set_points, with the plan of these points.
+  virtual void set_planned_points(ConstPoints sources, ConstPoints targets, ConstPoints normals, Plan const& plan) = 0;
+
+  void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) final {
+    set_planned_points(sources, targets, normals, plan(sources, targets));
+  }
 };
 
 // Vector loops of the host, or Kokkos's default execution space.

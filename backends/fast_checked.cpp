@@ -30,17 +30,12 @@ double square(ConstPoints points) {
 class CheckedFast final : public FastEvaluator {
  public:
   CheckedFast(std::string_view kernel, EvaluatorOptions const& options, FastInstructions instructions, std::string_view name)
-      : kernel_(kernel), options_(options), instructions_(instructions), name_(name) {}
+      : kernel_(kernel), options_(options), instructions_(instructions), name_(name), first_(make_sum(options.accuracy)) {}
 
-  void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
-    set_points(sources, targets, normals, 
-               best_plan(kernel_, sources, targets, fast_parameters(kernel_, options_.accuracy, options_.gradient)));
-  }
+  Plan plan(ConstPoints sources, ConstPoints targets) const override { return first_->plan(sources, targets); }
 
-  void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals, Plan const& plan) override {
-    if (!first_)
-      first_ = make_fast(kernel_, fast_parameters(kernel_, options_.accuracy, options_.gradient), instructions_, name_);
-    first_->set_points(sources, targets, normals, plan);
+  void set_planned_points(ConstPoints sources, ConstPoints targets, ConstPoints normals, Plan const& plan) override {
+    first_->set_planned_points(sources, targets, normals, plan);
     stricter_.reset();
     accuracy_ = options_.accuracy;
     is_strictest_ = accuracy_ == strictest;
@@ -62,8 +57,8 @@ class CheckedFast final : public FastEvaluator {
   std::string_view backend() const override { return name_; }
   std::size_t memory() const override {
     std::size_t bytes = sizeof(Vec3d) * (sources_.capacity() + targets_.capacity() + normals_.capacity());
-    for (Evaluator const* part : {static_cast<Evaluator*>(first_.get()), stricter_.get(), exact_.get()}) bytes += part ? part->memory() : 0;
-    return bytes;
+    for (Evaluator const* part : {stricter_.get(), exact_.get()}) bytes += part ? part->memory() : 0;
+    return bytes + first_->memory();
   }
 
  private:
@@ -89,8 +84,7 @@ class CheckedFast final : public FastEvaluator {
   Evaluator& used() { return stricter_ ? *stricter_ : *first_; }
   ConstPoints targets() const { return is_self_ ? ConstPoints(sources_) : ConstPoints(targets_); }
 
-  std::unique_ptr<Evaluator> make_sum(double accuracy) const {
-    if (accuracy < strictest) return make_direct(kernel_, {.accuracy = accuracy, .gradient = options_.gradient});
+  std::unique_ptr<FastEvaluator> make_sum(double accuracy) const {
     return make_fast(kernel_, fast_parameters(kernel_, accuracy, options_.gradient), instructions_, name_);
   }
 
@@ -136,7 +130,10 @@ class CheckedFast final : public FastEvaluator {
     accuracy_ *= std::max(margin / missed, 1e-6);
     if (accuracy_ < strictest) accuracy_ = accuracy_ > 0.01 * strictest && !is_strictest_ ? strictest : 1e-15;
     is_strictest_ = accuracy_ == strictest;
-    stricter_ = make_sum(accuracy_);
+    if (accuracy_ < strictest)
+      stricter_ = make_direct(kernel_, {.accuracy = accuracy_, .gradient = options_.gradient});
+    else
+      stricter_ = make_sum(accuracy_);
     stricter_->set_points(sources_, targets(), normals_);
   }
 

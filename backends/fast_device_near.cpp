@@ -79,10 +79,6 @@ KOKKOS_INLINE_FUNCTION void put(Dual<Real> const (&u)[3], long target, double sc
   }
 }
 
-// Sources summed before the sum goes to double: in float every term rounds the sum of those before it.
-template <class Real>
-inline constexpr int run = sizeof(Real) == 4 ? 32 : 1 << 30;
-
 // One kernel's sum over the lists, as the functor of a launch: thread i has target i % group_size of group i / group_size.
 template <class Kernel, class Number, class Real>
 struct ListSum {
@@ -104,7 +100,7 @@ struct ListSum {
     for (int d = 0; d < n_coordinate<Real>; ++d) x[d] = targets(target * n_coordinate<Real> + d);
     Number const zero = Real(0);
     Number u[3] = {zero, zero, zero};
-    int n_summed = 0;
+    long n_summed = 0;
     for (long s = group.segment_begin; s < group.segment_end; ++s) {
       DeviceSegment const segment = segments(s);
       DeviceLevel<Real> const level = levels(segment.level);
@@ -112,7 +108,7 @@ struct ListSum {
         Real const* const source = &records((segment.base + static_cast<long>(list(k))) * record);
         add_pair<Kernel, Real>(polynomials, level, distance<Real>(x, source), source + n_coordinate<Real>,
                                record - n_coordinate<Real>, u);
-        if (++n_summed < run<Real>) continue;
+        if (++n_summed < near_run<Real>) continue;
         put(u, target, scale, slope_scale, velocity.data(), slopes.data());
         for (Number& sum : u) sum = zero;
         n_summed = 0;

@@ -96,6 +96,10 @@ struct NearQuery {
   float reach;
 };
 
+// Sources whose local parts are summed before the sum goes to double: in float every term rounds the sum of those before it.
+template <class Real>
+inline constexpr long near_run = sizeof(Real) == 4 ? 32 : 1L << 40;
+
 // Where a search for sources writes, with room for as many as are searched + NearQuery::max_target: the sources in reach,
 // and the places among them of those that may touch a target.
 struct NearFound {

@@ -36,9 +36,6 @@ struct NearLoop {
     return r2 > P{} ? inverse : P{};
   }
 
-  // Sources summed before the sum goes to double: in float every term rounds the sum of those before it.
-  static constexpr long run = sizeof(Real) == 4 ? 32 : 1L << 40;
-
   template <int n>
   struct Sums {
     double at[n][W] = {};
@@ -70,7 +67,7 @@ struct NearLoop {
         P const cutoff2 = broadcast(level.cutoff2);
         while (source < piece.end) {
           P u[3] = {P{}, P{}, P{}};
-          for (long const stop = smaller(long{piece.end}, source + run); source < stop; ++source) {
+          for (long const stop = smaller(long{piece.end}, source + near_run<Real>); source < stop; ++source) {
             Real const* const record = records + work.list[source] * static_cast<long>(work.record);
             P r[3];
             targets.minus(record, r);
@@ -138,7 +135,7 @@ struct NearLoop {
         NearLevel<Real> const& level = work.levels[piece.level];
         while (source < piece.end) {
           D u[3];
-          for (long const stop = smaller(long{piece.end}, source + run); source < stop; ++source)
+          for (long const stop = smaller(long{piece.end}, source + near_run<Real>); source < stop; ++source)
             add_pair_gradient<Kernel>(work, level, targets, work.records + (piece.base + work.list[source]) * static_cast<long>(work.record), u);
           for (int d = 0; d < 3; ++d) {
             sums.add(d, u[d].value);

@@ -57,20 +57,19 @@ bool is_same(ConstPoints a, ConstPoints b) { return a.data() == b.data() && a.si
 // One of every `stride` points along the Morton curve: every box keeps its share, to within one point.
 class Thinned {
  public:
-  Thinned(ConstPoints sources, ConstPoints targets, long stride) {
+  Thinned(ConstPoints sources, ConstPoints targets, long stride) : sources_(sources), targets_(targets) {
+    if (stride == 1) return;
     bool const same = is_same(sources, targets);
-    if (stride == 1) {
-      sources_.assign(sources.begin(), sources.end());
-      if (!same) targets_.assign(targets.begin(), targets.end());
-    } else {
-      Octree const order(sources, targets, {.capacity = std::numeric_limits<long>::max() / 4});
-      sources_ = every(order.sources(), stride);
-      if (!same) targets_ = every(order.targets(), stride);
-    }
-    is_same_ = same;
+    Octree const order(sources, targets, {.capacity = std::numeric_limits<long>::max() / 4});
+    few_sources_ = every(order.sources(), stride);
+    if (!same) few_targets_ = every(order.targets(), stride);
+    sources_ = few_sources_;
+    targets_ = same ? few_sources_ : few_targets_;
   }
+  Thinned(Thinned const&) = delete;
+
   ConstPoints sources() const { return sources_; }
-  ConstPoints targets() const { return is_same_ ? sources_ : targets_; }
+  ConstPoints targets() const { return targets_; }
 
  private:
   static PointArray every(PointArray const& points, long stride) {
@@ -79,8 +78,8 @@ class Thinned {
     return few;
   }
 
-  bool is_same_ = false;
-  PointArray sources_, targets_;
+  PointArray few_sources_, few_targets_;
+  ConstPoints sources_, targets_;  // those given, or the few
 };
 
 // Nodes of the grid in free space whose cutoff is the side of a box of `level`.
