@@ -14,6 +14,8 @@ import argparse
 
 import numpy as np
 
+from study import first_time
+
 CELL = np.array([24.9, 14.9, 14.9])  # um, where plus ends meet the cortex
 START, PNC_RADIUS, CENTROSOME_RADIUS = 10.0, 5.0, 1.0  # um
 RIGIDITY, STALL, SHORTEST, MEAN_LENGTH = 10.0, 4.4, 0.5, 8.0  # pN um^2, pN, um, um
@@ -81,10 +83,6 @@ def course(seed, options, dt=0.25):
     return np.array(rows).T
 
 
-def first_minute(times, condition):
-    return times[np.argmax(condition)] / 60 if condition.any() else np.nan
-
-
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--translation", type=float, default=1000.0, help="pN s/um")
@@ -99,6 +97,6 @@ if __name__ == "__main__":
     options = parser.parse_args()
     for seed in options.seeds:
         times, x, angle, push = course(seed, options)
-        marks = [first_minute(times, condition) for condition in (x < 2, x < 0, angle < 10)]
+        marks = [first_time(times, condition) / 60 for condition in (x < 2, x < 0, angle < 10)]
         print(f"seed {seed}: 2 um {marks[0]:.1f}, centre {marks[1]:.1f}, 10 degrees {marks[2]:.1f} min; "
               f"sum of pushes {push.mean():.0f} pN", flush=True)

@@ -22,8 +22,6 @@ class ScreenedForces {
   // wall: of a cell.
   ScreenedForces(ImageWall const& wall, double accuracy);
 
-  ImageWall const& wall() const { return wall_; }
-
   // Of a force with images at the distance from the point of the wall that has that direction.
   TablePoint locate(Vec3d direction, double distance_over_reach) const;
 
