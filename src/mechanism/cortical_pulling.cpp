@@ -2,6 +2,7 @@
 
 #include "base/random.hpp"
 #include "base/stored_values.hpp"
+#include "mechanism/cortical_sites.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,41 +11,7 @@
 namespace asterflow {
 namespace {
 
-constexpr std::uint64_t site_stream = 0x736974657300ull;  // keeps sites apart from fibers' own chance
-enum Draw : std::uint64_t { height, turn, acceptance, which_site };
-
-Vec3d random_direction(std::uint64_t seed, std::uint64_t site, std::uint64_t attempt) {
-  double const z = 2 * uniform_random(seed, site_stream + site, attempt, height) - 1;
-  double const phi = 2 * std::numbers::pi * uniform_random(seed, site_stream + site, attempt, turn);
-  double const r = std::sqrt(std::max(0.0, 1 - z * z));
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
-
-// Area of the surface over that of the unit sphere, um^2: |cof(J) d| for the map's derivative J across d.
-double area_ratio(Shape const& shape, Vec3d direction) {
-  auto const image = shape.image(direction);
-  Vec3d const first = normalized(cross(direction, std::abs(direction.x) > 0.6 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}));
-  Vec3d const second = cross(direction, first);
-  return norm(cross(image.jacobian * first, image.jacobian * second));
-}
-
-// Independent points, uniform by area: directions accepted with a probability in proportion to the area.
-PointArray random_sites(Shape const& shape, int count, std::uint64_t seed) {
-  double largest = 0.0;
-  for (int i = 0; i < 4000; ++i)
-    largest = std::max(largest, area_ratio(shape, random_direction(seed, std::uint64_t(-1), i)));
-  largest *= 1.05;
-  PointArray sites;
-  for (int site = 0; site < count; ++site)
-    for (std::uint64_t attempt = 0;; ++attempt) {
-      Vec3d const direction = random_direction(seed, site, attempt);
-      double const chance = uniform_random(seed, site_stream + site, attempt, acceptance);
-      if (chance * largest > area_ratio(shape, direction)) continue;
-      sites.push_back(shape.image(direction).position);
-      break;
-    }
-  return sites;
-}
+constexpr std::uint64_t which_site = 3;  // draw of a fiber, beside those of dynamic instability
 
 // Farthest extent of a surface along an axis, um: the best of a grid, then steps to better neighbours that halve.
 double extent(Shape const& shape, Vec3d axis) {
@@ -70,10 +37,12 @@ double extent(Shape const& shape, Vec3d axis) {
 
 CorticalPulling::CorticalPulling(CorticalPullingSpec const& spec, CortexSurface const& cortex, std::uint64_t seed)
     : spec_(spec), cortex_(cortex), seed_(seed), pole_(extent(cortex.shape(), spec.posterior)) {
-  if (spec.positions.empty())
-    sites_ = random_sites(cortex.shape(), spec.sites, seed);
-  else
+  if (!spec.positions.empty())
     sites_.assign(spec.positions.begin(), spec.positions.end());
+  else if (spec.arrangement == CorticalPullingSpec::Arrangement::even)
+    sites_ = even_sites(cortex.shape(), spec.posterior, spec.sites);
+  else
+    sites_ = random_sites(cortex.shape(), spec.sites, seed);
   is_taken_.assign(sites_.size(), 0);
 }
 

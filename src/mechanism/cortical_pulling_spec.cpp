@@ -6,8 +6,12 @@ CorticalPullingSpec read_cortical_pulling(Table table) {
   using enum CorticalPullingSpec::Direction;
   CorticalPullingSpec spec;
   table.read("sites", spec.sites, between(0, 1000000));
+  using Arrangement = CorticalPullingSpec::Arrangement;
+  table.read_choice<Arrangement>("arrangement", spec.arrangement,
+                                 {{"random", Arrangement::random}, {"even", Arrangement::even}});
   table.read("positions", spec.positions, any_number, "um");
   if (table.has("sites") && table.has("positions")) table.fail("sites", "does not go together with positions");
+  if (table.has("arrangement") && table.has("positions")) table.fail("arrangement", "does not go together with positions");
   table.read("pull_force", spec.pull_force, not_negative, "pN");
   table.read_choice<CorticalPullingSpec::Direction>("direction", spec.direction,
                                                     {{"fiber", fiber}, {"normal", normal}});

@@ -10,8 +10,10 @@ namespace asterflow {
 
 struct CorticalPullingSpec {
   enum class Direction { fiber, normal };
+  enum class Arrangement { random, even };
 
-  int sites = 100;               // >= 0, spread over the cortex at random, uniformly by area; or
+  int sites = 100;               // >= 0, spread over the cortex, uniformly by area,
+  Arrangement arrangement = Arrangement::random;  // each at random or evenly (mechanism/cortical_sites.hpp); or
   std::vector<Vec3d> positions = {};  // um, of the sites, on the cortex
   double pull_force = 3.0;       // pN, >= 0, outwards on a captured plus end
   Direction direction = Direction::fiber;  // of the pull: along the fiber's tangent or the cortex' outward normal

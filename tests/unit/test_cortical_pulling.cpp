@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace asterflow;
 
 namespace {
@@ -13,6 +15,22 @@ CortexSurface ellipsoid() {
   spec.kind = ShapeSpec::Kind::ellipsoid;
   spec.semi_axes = {5.0, 3.0, 2.0};
   return {make_shape(spec), 0.1};
+}
+
+// Share of the area of that ellipsoid with x > `least` (um), by quadrature of the parametrised surface.
+double share_beyond(double least) {
+  double total = 0.0, cap = 0.0;
+  int const n = 400;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < 2 * n; ++j) {
+      double const z = (2.0 * i + 1) / n - 1, phi = M_PI * (j + 0.5) / n;
+      double const r = std::sqrt(1 - z * z);
+      Vec3d const d{z, r * std::cos(phi), r * std::sin(phi)};
+      double const area = norm(Vec3d{3.0 * 2.0 * d.x, 5.0 * 2.0 * d.y, 5.0 * 3.0 * d.z});
+      total += area;
+      if (5.0 * d.x > least) cap += area;
+    }
+  return cap / total;
 }
 
 // A fiber held in space near one site, with chance only in the capture and detachment.
@@ -44,25 +62,29 @@ std::string scene_of(std::string const& pulling, std::string const& more = "") {
 
 TEST(CorticalPulling, sites_are_uniform_by_area) {
   CorticalPulling const pulling({.sites = 4000}, ellipsoid(), 7);
-  // Area with x > a / 2 of this ellipsoid by quadrature of the parametrised surface.
-  double total = 0.0, cap = 0.0;
-  int const n = 400;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < 2 * n; ++j) {
-      double const z = (2.0 * i + 1) / n - 1, phi = M_PI * (j + 0.5) / n;
-      double const r = std::sqrt(1 - z * z);
-      Vec3d const d{z, r * std::cos(phi), r * std::sin(phi)};
-      double const area = norm(Vec3d{3.0 * 2.0 * d.x, 5.0 * 2.0 * d.y, 5.0 * 3.0 * d.z});
-      total += area;
-      if (5.0 * d.x > 2.5) cap += area;
-    }
   double counted = 0;
   for (Vec3d x : pulling.sites()) {
     EXPECT_NEAR(std::pow(x.x / 5, 2) + std::pow(x.y / 3, 2) + std::pow(x.z / 2, 2), 1.0, 1e-12);
     counted += x.x > 2.5;
   }
-  double const share = cap / total;
+  double const share = share_beyond(2.5);
   EXPECT_NEAR(counted / 4000, share, 4 * std::sqrt(share * (1 - share) / 4000));
+}
+
+TEST(CorticalPulling, even_sites_divide_the_area_and_keep_apart) {
+  int const count = 200;
+  CorticalPulling const pulling({.sites = count, .arrangement = CorticalPullingSpec::Arrangement::even}, ellipsoid(), 7);
+  PointArray const& sites = pulling.sites();
+  ASSERT_EQ(sites.size(), 200u);
+  for (double const least : {-4.0, -1.0, 0.0, 2.5, 4.5})
+    EXPECT_NEAR(std::count_if(sites.begin(), sites.end(), [&](Vec3d x) { return x.x > least; }),
+                count * share_beyond(least), 1.0);
+  double closest = 1e9;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    EXPECT_NEAR(std::pow(sites[i].x / 5, 2) + std::pow(sites[i].y / 3, 2) + std::pow(sites[i].z / 2, 2), 1.0, 1e-12);
+    for (std::size_t j = 0; j < i; ++j) closest = std::min(closest, norm(sites[i] - sites[j]));
+  }
+  EXPECT_GT(closest, 0.4);  // um; the mean area of a site is 0.67 um on a side
 }
 
 TEST(CorticalPulling, rate_is_constant_in_front_and_linear_behind_the_plane) {

@@ -67,6 +67,7 @@ TEST(MechanismSpecs, contradictions_are_refused) {
   expect_refusal("[pushing]\nsliding = \"friction\"\n", "friction: is needed");
   expect_refusal("[cytoplasmic_pulling]\nmotor_force = 1\nstall_force = 2\n", "stall_force = 2");
   expect_refusal("[cortical_pulling]\nsites = 3\npositions = [[0, 0, 6]]\n", "sites = 3");
+  expect_refusal("[cortical_pulling]\narrangement = \"even\"\npositions = [[0, 0, 6]]\n", "arrangement");
   expect_refusal("[cortical_pulling]\ndividing_body = \"pnc\"\ndividing_plane = 1.0\n", "dividing_plane = 1");
 }
 
