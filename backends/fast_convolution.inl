@@ -17,14 +17,14 @@ inline int partner_modes(double band, int j1, int n1, int n2, int most) {
 }
 
 // One plane z of a tile, rows from y_begin; its rows in vector lanes, 2 lanes<Real> at a time.
-template <class Real>
-void x_forward(PatchView<Real> const& patch, TileGrid<Real> const& tile, int z, int components, Real* spectrum,
+template <class Real, class Sum>
+void x_forward(PatchView<Real> const& patch, TileGrid<Real, Sum> const& tile, int z, int components, Real* spectrum,
                Pack<Real>* work) {
   using P = Pack<Real>;
   constexpr int W = lanes<Real>;
   int const nx = patch.nodes[0], n_kx = patch.modes[0] + 1, ny = tile.y_end - tile.y_begin;
   long const row = tile.row, n_ghost = smaller(row - nx, long(nx)), ys = patch.spectrum_row;
-  Real const* const grid = tile.grid + (z - tile.z_begin) * static_cast<long>(ny) * components * row;
+  Sum const* const grid = tile.grid + (z - tile.z_begin) * static_cast<long>(ny) * components * row;
   P *const re = work, *const im = re + row, *const work_re = im + row, *const work_im = work_re + row;
   for (int c = 0; c < components; ++c)
     for (int y0 = 0; y0 < ny; y0 += 2 * W) {
@@ -34,7 +34,7 @@ void x_forward(PatchView<Real> const& patch, TileGrid<Real> const& tile, int z, 
           P square[W];
           for (int i = 0; i < W; ++i) {
             int const y = y0 + part * W + i;
-            square[i] = y < ny ? load(grid + (static_cast<long>(y) * components + c) * row + x) : P{};
+            square[i] = y < ny ? load_as<Real>(grid + (static_cast<long>(y) * components + c) * row + x) : P{};
           }
           transpose<Real>(square);
           for (int i = 0; i < W; ++i) line[x + i] = square[i];
@@ -58,21 +58,32 @@ void x_forward(PatchView<Real> const& patch, TileGrid<Real> const& tile, int z, 
 
 template <class Real>
 long forward_scratch(WindowView<Real> const& window, PatchView<Real> const& patch, int components) {
-  long const row = TileGrid<Real>::tile_row(patch, window.padded);
-  return row * (4L * patch.tile_y * patch.tile_z * components + 4L * lanes<Real>);  // the last tiles are larger
+  long const row = tile_row(patch, window.padded);
+  long const per_sum = window.sums_in_double ? static_cast<long>(sizeof(double) / sizeof(Real)) : 1;
+  return row * (4L * patch.tile_y * patch.tile_z * components * per_sum + 4L * lanes<Real>);  // the last tiles are larger
+}
+
+template <class Real, class Sum>
+void forward_of(WindowView<Real> const& window, PatchView<Real> const& patch, int components, long i_tile,
+                double const* points, Real const* strengths, Real* spectrum, Real* scratch) {
+  auto* const work = reinterpret_cast<Pack<Real>*>(scratch);
+  long const row = tile_row(patch, window.padded);
+  auto* const grid = reinterpret_cast<Sum*>(scratch + 4 * row * lanes<Real>);
+  TileGrid<Real, Sum> const tile(patch, i_tile, window.padded, grid);
+  if (components == 3)
+    spread<Real, Sum, 3>(window, patch, tile, points, strengths);
+  else
+    spread<Real, Sum, 6>(window, patch, tile, points, strengths);
+  for (int z = tile.z_begin; z < tile.z_end; ++z) x_forward(patch, tile, z, components, spectrum, work);
 }
 
 template <class Real>
-void forward(WindowView<Real> const& window, PatchView<Real> const& patch, int components, long i_tile,
+void forward(WindowView<Real> const& window, PatchView<Real> const& patch, int components, long tile,
              double const* points, Real const* strengths, Real* spectrum, Real* scratch) {
-  auto* const work = reinterpret_cast<Pack<Real>*>(scratch);
-  long const row = TileGrid<Real>::tile_row(patch, window.padded);
-  TileGrid<Real> const tile(patch, i_tile, window.padded, scratch + 4 * row * lanes<Real>);
-  if (components == 3)
-    spread<Real, 3>(window, patch, tile, points, strengths);
+  if (window.sums_in_double)
+    forward_of<Real, double>(window, patch, components, tile, points, strengths, spectrum, scratch);
   else
-    spread<Real, 6>(window, patch, tile, points, strengths);
-  for (int z = tile.z_begin; z < tile.z_end; ++z) x_forward(patch, tile, z, components, spectrum, work);
+    forward_of<Real, Real>(window, patch, components, tile, points, strengths, spectrum, scratch);
 }
 
 // Lines along z of one component and kx, for all y.

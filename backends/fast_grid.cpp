@@ -35,8 +35,12 @@ int wrapped(int i, int n) { return i < 0 ? i + n : i >= n ? i - n : i; }
 }  // namespace
 
 template <class Real>
-GridWindow<Real>::GridWindow(int width, double shape)
-    : width_(width), padded_(width <= 8 ? 8 : width <= 12 ? 12 : 16), degree_(width + 3), shape_(shape) {
+GridWindow<Real>::GridWindow(int width, double shape, bool sums_in_double)
+    : width_(width),
+      padded_(width <= 8 ? 8 : width <= 12 ? 12 : 16),
+      degree_(width + 3),
+      shape_(shape),
+      sums_in_double_(sums_in_double) {
   KaiserBessel const window(shape);
   std::size_t const n = degree_ + 1;
   coefficients_.assign(2 * n * padded_, Real(0));

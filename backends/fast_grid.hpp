@@ -11,12 +11,13 @@ namespace asterflow {
 template <class Real>
 class GridWindow {
  public:
-  GridWindow(int width, double shape);
+  // sums_in_double: see WindowView.
+  GridWindow(int width, double shape, bool sums_in_double);
 
   int width() const { return width_; }
   int padded_width() const { return padded_; }  // 8, 12 or 16: one row of the window as vectors
   double transform(double theta) const;         // of the window at wave number theta per node
-  WindowView<Real> view() const { return {width_, padded_, degree_, coefficients_.data()}; }
+  WindowView<Real> view() const { return {width_, padded_, degree_, coefficients_.data(), sums_in_double_}; }
 
   // What the inner loops need to know of a patch; lanes: numbers in a vector register.
   PatchView<Real> view(Patch<Real> const& patch, int lanes) const;
@@ -27,6 +28,7 @@ class GridWindow {
  private:
   int width_, padded_, degree_;
   double shape_;
+  bool sums_in_double_;
   std::vector<Real> coefficients_;  // [2, degree + 1, padded]: of the weights, of their slopes per node
 };
 

@@ -20,6 +20,12 @@ struct Row {
     for (int i = 0; i < n_vector; ++i) row.v[i] = reinterpret_cast<Unaligned const*>(p)[i];
     return row;
   }
+  template <class Other>
+  static Row from(Other const* p) {
+    Real numbers[n];
+    for (int i = 0; i < n; ++i) numbers[i] = static_cast<Real>(p[i]);
+    return from(numbers);
+  }
   void to(Real* p) const {
     for (int i = 0; i < n_vector; ++i) reinterpret_cast<Unaligned*>(p)[i] = v[i];
   }
@@ -86,15 +92,22 @@ void weights(Real const* coefficients, int degree, Real const (&z)[3], Row<Real,
   sum[0] = x, sum[1] = y, sum[2] = w;
 }
 
-// The nodes of one tile: y_begin ... y_end - 1, z_begin ... z_end - 1; its rows begin at `grid`, [z, y, component, x].
+// Nodes of one row of a tile, ghosts that continue the period and padding included.
 template <class Real>
+long tile_row(PatchView<Real> const& patch, int padded) {
+  return (patch.nodes[0] + padded + lanes<Real> - 1) / lanes<Real> * lanes<Real>;
+}
+
+// The nodes of one tile: y_begin ... y_end - 1, z_begin ... z_end - 1; its rows begin at `grid`, [z, y, component, x].
+// `Sum` is the type in which strengths add up: in float small shares of many strengths of one sign would be lost.
+template <class Real, class Sum>
 struct TileGrid {
   int y, z;  // place of the tile
   int y_begin, y_end, z_begin, z_end;
   long row;
-  Real* grid;
+  Sum* grid;
 
-  TileGrid(PatchView<Real> const& patch, long tile, int padded, Real* memory)
+  TileGrid(PatchView<Real> const& patch, long tile, int padded, Sum* memory)
       : y(static_cast<int>(tile % patch.tiles_y)), z(static_cast<int>(tile / patch.tiles_y)), grid(memory) {
     y_begin = y * patch.tile_y;
     y_end = y + 1 == patch.tiles_y ? patch.nodes[1] : y_begin + patch.tile_y;
@@ -102,29 +115,27 @@ struct TileGrid {
     z_end = z + 1 == patch.tiles_z ? patch.nodes[2] : z_begin + patch.tile_z;
     row = tile_row(patch, padded);
   }
-  // Nodes of one row, ghosts that continue the period and padding included.
-  static long tile_row(PatchView<Real> const& patch, int padded) {
-    return (patch.nodes[0] + padded + lanes<Real> - 1) / lanes<Real> * lanes<Real>;
-  }
 };
 
 // Adds the point's strengths f to the nodes of the tile within its window.
-template <class Real, int padded, int components>
-void spread_point(WindowView<Real> const& window, PatchView<Real> const& patch, TileGrid<Real> const& tile,
+template <class Real, class Sum, int padded, int components>
+void spread_point(WindowView<Real> const& window, PatchView<Real> const& patch, TileGrid<Real, Sum> const& tile,
                   double const* point, Real const* f) {
-  using R = Row<Real, padded>;
+  using R = Row<Sum, padded>;
   GridPlace<Real> const place(patch, point);
   int const y0 = wrapped(place.first[1], patch.nodes[1]), z0 = wrapped(place.first[2], patch.nodes[2]);
   if (!overlaps(y0, window.width, tile.y_begin, tile.y_end, patch.nodes[1])) return;
   if (!overlaps(z0, window.width, tile.z_begin, tile.z_end, patch.nodes[2])) return;
-  R w[3];
+  Row<Real, padded> w[3];
   weights<Real, padded>(window.coefficients, window.degree, place.z, w);
-  Real wy[padded], wz[padded];
+  Real wx[padded], wy[padded], wz[padded];
+  w[0].to(wx);
   w[1].to(wy);
   w[2].to(wz);
+  R const weight_x = R::from(wx);
   long const stride_y = components * tile.row, stride_z = (tile.y_end - tile.y_begin) * stride_y;
   long offset_y[padded];
-  Real weight_y[padded];
+  Sum weight_y[padded];
   int n_y = 0;
   for (int j = 0; j < window.width; ++j) {
     int const y = wrapped(y0 + j, patch.nodes[1]);
@@ -136,10 +147,10 @@ void spread_point(WindowView<Real> const& window, PatchView<Real> const& patch, 
     int const z = wrapped(z0 + j, patch.nodes[2]);
     if (z < tile.z_begin || z >= tile.z_end) continue;
     R load_x[components];
-    for (int c = 0; c < components; ++c) load_x[c] = w[0].scaled(wz[j] * f[c]);
-    Real* const plane = tile.grid + (z - tile.z_begin) * stride_z + wrapped(place.first[0], patch.nodes[0]);
+    for (int c = 0; c < components; ++c) load_x[c] = weight_x.scaled(static_cast<Sum>(wz[j]) * f[c]);
+    Sum* const plane = tile.grid + (z - tile.z_begin) * stride_z + wrapped(place.first[0], patch.nodes[0]);
     for (int m = 0; m < n_y; ++m) {
-      Real* p = plane + offset_y[m];
+      Sum* p = plane + offset_y[m];
       for (int c = 0; c < components; ++c, p += tile.row) {
         R sum = R::from(p);
         sum.add_product(load_x[c], weight_y[m]);
@@ -149,26 +160,26 @@ void spread_point(WindowView<Real> const& window, PatchView<Real> const& patch, 
   }
 }
 
-template <class Real, int padded, int components>
-void spread_rows(WindowView<Real> const& window, PatchView<Real> const& patch, TileGrid<Real> const& tile,
+template <class Real, class Sum, int padded, int components>
+void spread_rows(WindowView<Real> const& window, PatchView<Real> const& patch, TileGrid<Real, Sum> const& tile,
                  double const* points, Real const* strengths) {
-  std::memset(tile.grid, 0, sizeof(Real) * components * tile.row * (tile.y_end - tile.y_begin) * (tile.z_end - tile.z_begin));
+  std::memset(tile.grid, 0, sizeof(Sum) * components * tile.row * (tile.y_end - tile.y_begin) * (tile.z_end - tile.z_begin));
   for (int dz = 0; dz < smaller(2, patch.tiles_z); ++dz)
     for (int dy = 0; dy < smaller(2, patch.tiles_y); ++dy) {
       int const from = wrapped(tile.z - dz, patch.tiles_z) * patch.tiles_y + wrapped(tile.y - dy, patch.tiles_y);
       for (long k = patch.sources.begin[from]; k < patch.sources.begin[from + 1]; ++k) {
         long const i = patch.sources.index[k];
-        spread_point<Real, padded, components>(window, patch, tile, points + 3 * i, strengths + components * i);
+        spread_point<Real, Sum, padded, components>(window, patch, tile, points + 3 * i, strengths + components * i);
       }
     }
 }
 
-template <class Real, int components>
-void spread(WindowView<Real> const& window, PatchView<Real> const& patch, TileGrid<Real> const& tile,
+template <class Real, class Sum, int components>
+void spread(WindowView<Real> const& window, PatchView<Real> const& patch, TileGrid<Real, Sum> const& tile,
             double const* points, Real const* strengths) {
-  if (window.padded == 8) return spread_rows<Real, 8, components>(window, patch, tile, points, strengths);
-  if (window.padded == 12) return spread_rows<Real, 12, components>(window, patch, tile, points, strengths);
-  spread_rows<Real, 16, components>(window, patch, tile, points, strengths);
+  if (window.padded == 8) return spread_rows<Real, Sum, 8, components>(window, patch, tile, points, strengths);
+  if (window.padded == 12) return spread_rows<Real, Sum, 12, components>(window, patch, tile, points, strengths);
+  spread_rows<Real, Sum, 16, components>(window, patch, tile, points, strengths);
 }
 
 // Sums of the three velocity components, weighted along y by wy and along z by wz; rows along x remain.

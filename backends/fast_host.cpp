@@ -11,14 +11,14 @@
 namespace asterflow {
 namespace {
 
-template <class NearReal, class FarReal>
+template <class Real>
 class HostParts final : public FastParts {
  public:
   HostParts(std::string_view kernel, FastParameters const& parameters, FastInstructions instructions)
-      : near_(fast_kernel(kernel), fast_loops_of<NearReal>(instructions),
+      : near_(fast_kernel(kernel), fast_loops_of<Real>(instructions),
               KernelSplit(parameters.split_shape).local_part(kernel, parameters.local_tolerance),
               parameters.refinement_steps),
-        far_(fast_kernel(kernel), fast_loops_of<FarReal>(instructions), parameters) {}
+        far_(fast_kernel(kernel), fast_loops_of<Real>(instructions), parameters) {}
 
   void set_points(Octree& tree, ConstPoints normals) override {
     near_.set_points(tree);
@@ -37,8 +37,8 @@ class HostParts final : public FastParts {
   std::size_t memory() const override { return near_.memory() + far_.memory() + sizeof(Vec3d) * normals_.capacity(); }
 
  private:
-  NearField<NearReal> near_;
-  FarField<FarReal> far_;
+  NearField<Real> near_;
+  FarField<Real> far_;
   PointArray normals_;
 };
 
@@ -46,9 +46,8 @@ class HostParts final : public FastParts {
 
 std::unique_ptr<FastParts> make_host_parts(std::string_view kernel, FastParameters const& parameters,
                                            FastInstructions instructions) {
-  if (parameters.single) return std::make_unique<HostParts<float, float>>(kernel, parameters, instructions);
-  if (parameters.near_single) return std::make_unique<HostParts<float, double>>(kernel, parameters, instructions);
-  return std::make_unique<HostParts<double, double>>(kernel, parameters, instructions);
+  if (parameters.single) return std::make_unique<HostParts<float>>(kernel, parameters, instructions);
+  return std::make_unique<HostParts<double>>(kernel, parameters, instructions);
 }
 
 }  // namespace asterflow

@@ -22,6 +22,7 @@ template <class Real>
 struct WindowView {
   int width = 0, padded = 0, degree = 0;
   Real const* coefficients = nullptr;  // [2, degree + 1, padded]: of the weights, of their slopes per node
+  bool sums_in_double = false;         // strengths add up on the grid in double, whatever it is transformed in
 };
 
 // Points of a patch by grid tile: indices index[begin[tile]] ... index[begin[tile + 1]].

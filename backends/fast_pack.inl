@@ -43,6 +43,27 @@ inline Pack<Real> load(Real const* p) {
   return v;
 }
 
+// A vector of floats from as many doubles, and what needs no conversion.
+template <class Real>
+inline Pack<Real> load_as(Real const* p) {
+  return load(p);
+}
+template <class Real>
+inline Pack<float> load_as(double const* p)
+  requires(sizeof(Real) == 4)
+{
+#if defined(__AVX512F__)
+  __m512 const low = _mm512_castps256_ps512(_mm512_cvtpd_ps(_mm512_loadu_pd(p)));
+  return (Pack<float>)_mm512_insertf32x8(low, _mm512_cvtpd_ps(_mm512_loadu_pd(p + 8)), 1);
+#elif defined(__AVX2__)
+  return (Pack<float>)_mm256_set_m128(_mm256_cvtpd_ps(_mm256_loadu_pd(p + 4)), _mm256_cvtpd_ps(_mm256_loadu_pd(p)));
+#else
+  Pack<float> v{};
+  for (int i = 0; i < lanes<float>; ++i) v[i] = static_cast<float>(p[i]);
+  return v;
+#endif
+}
+
 template <class Real>
 inline void store(Real* p, Pack<Real> v) {
   std::memcpy(p, &v, pack_bytes);

@@ -14,8 +14,8 @@ struct FastParameters {
   int width;                // nodes of the grid window
   double window_shape;      // its c
   double local_tolerance;   // of the polynomials of the local part
-  bool single;              // grids in float
-  bool near_single;         // pairs in float
+  bool single;              // pairs in float, and grids but for the sums of strengths on them
+  bool sums_in_double;      // of strengths on the grids
   int refinement_steps;     // of the reciprocal square root, beyond the first for double
 
   bool gradient = false;      // whether gradients will be asked for

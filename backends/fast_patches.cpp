@@ -17,7 +17,7 @@ FarPatches<Real>::FarPatches(FastKernel kernel, FastParameters const& parameters
       split_(parameters.split_shape),
       lanes_(lanes),
       tiling_(std::move(tiling)),
-      window_(parameters.width, parameters.window_shape) {}
+      window_(parameters.width, parameters.window_shape, parameters.sums_in_double) {}
 
 template <class Real>
 void FarPatches<Real>::set_points(Octree const& tree) {

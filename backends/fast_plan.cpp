@@ -18,10 +18,10 @@ struct Costs {
 
 Costs costs(FastParameters const& p, int components) {
   double const terms = 0.9 * p.split_shape - 2.0, width2 = static_cast<double>(p.width) * p.width;
-  double const spread = 0.5 + components / 6.0;  // interpolation always has three components
-  double const pair = (p.near_single ? 0.019 : 0.038) * (25.0 + 2.0 * terms);
-  return p.single ? Costs{pair, 1.5 * (components + 3), spread * (4.0 * width2 + 100.0)}
-                  : Costs{pair, 3.7 * (components + 3), spread * (7.2 * width2 + 96.0)};
+  double const in_float = 4.0 * width2 + 100.0, in_double = 7.2 * width2 + 96.0;
+  double const spread = p.sums_in_double ? in_double : in_float, interpolate = p.single ? in_float : in_double;
+  double const pair = (p.single ? 0.019 : 0.038) * (25.0 + 2.0 * terms);
+  return {pair, (p.single ? 1.5 : 3.7) * (components + 3), components / 6.0 * spread + 0.5 * interpolate};
 }
 
 // Of the 27 boxes around a leaf with n targets, the part that a group of `lanes` of them has within the cutoff: the
@@ -110,7 +110,7 @@ Plan best_first_level(Octree const& tree, FastParameters const& p, int component
   Costs const c = costs(p, components);
   double const n = 0.5 * thinning * static_cast<double>(tree.sources().size() + tree.targets().size());
   double const max_nodes = p.max_nodes(static_cast<std::size_t>(n));
-  double const near = c.pair * near_pairs(tree, thinning, p.near_single ? 16.0 : 8.0);
+  double const near = c.pair * near_pairs(tree, thinning, p.single ? 16.0 : 8.0);
   Plan best;
   double deeper = 0.0;  // levels from `first` on
   for (int first = static_cast<int>(tree.refined().size()); first >= 0; --first) {

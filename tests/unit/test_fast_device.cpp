@@ -30,7 +30,7 @@ void expect_agreement(std::string_view kernel, double accuracy, PointSet const& 
   PointArray const on_host = sum(*make_fast(kernel, parameters, host(), "host"), c, with_gradient);
   PointArray const on_device = sum(*make_fast(kernel, parameters, FastInstructions::device, "device"), c, with_gradient);
   // The host's 1 / |r| is an estimate, with 4 digits in float and 8 in double, or refined once.
-  double const bound = parameters.refinement_steps > 0 ? (parameters.single ? 2e-6 : parameters.near_single ? 1e-6 : 1e-13) : parameters.single ? 2e-4 : 1e-7;
+  double const bound = parameters.refinement_steps > 0 ? (!parameters.single ? 1e-13 : parameters.sums_in_double ? 1e-6 : 2e-6) : parameters.single ? 2e-4 : 1e-7;
   EXPECT_LE(relative_difference(on_device, on_host), bound) << what;
   PointArray const exact = sum(*make_reference(kernel, {}), c, with_gradient);
   EXPECT_LE(relative_difference(on_device, exact), accuracy) << what;
