@@ -14,41 +14,11 @@ import argparse
 
 import numpy as np
 
+from straight import MEAN_LENGTH, SHORTEST, START, angle_to_axis, asters, distance_to_cortex, turned
 from study import first_time
 
-CELL = np.array([24.9, 14.9, 14.9])  # um, where plus ends meet the cortex
-START, PNC_RADIUS, CENTROSOME_RADIUS = 10.0, 5.0, 1.0  # um
-RIGIDITY, STALL, SHORTEST, MEAN_LENGTH = 10.0, 4.4, 0.5, 8.0  # pN um^2, pN, um, um
+RIGIDITY, STALL = 10.0, 4.4  # pN um^2, pN
 VISCOUS_PUSH = 7.0  # pN
-GOLDEN_ANGLE = np.pi * (3 - np.sqrt(5))
-
-
-def asters(count, opening):
-    """Starts relative to the centre (um) and directions of `count` fibers, evenly about y and -y up to `opening` (degrees)."""
-    half = count // 2
-    cosine = 1 - (1 - np.cos(np.radians(opening))) * (np.arange(half) + 0.5) / half
-    sine, turn = np.sqrt(1 - cosine**2), GOLDEN_ANGLE * np.arange(half)
-    upper = np.stack([sine * np.cos(turn), cosine, sine * np.sin(turn)], axis=1)
-    directions = np.concatenate([upper, upper * [1, -1, 1]])
-    poles = np.repeat([[0, PNC_RADIUS, 0], [0, -PNC_RADIUS, 0]], half, axis=0)
-    return poles + CENTROSOME_RADIUS * directions, directions
-
-
-def distance_to_cortex(start, direction):
-    """um from points along unit vectors to the ellipsoid."""
-    point, along = start / CELL, direction / CELL
-    a, b, c = np.sum(along**2, axis=1), np.sum(point * along, axis=1), np.sum(point**2, axis=1) - 1
-    return (-b + np.sqrt(np.maximum(b * b - a * c, 0))) / a
-
-
-def turned(rotation, turn):
-    """The rotation after a small turn (vector, rad), Rodrigues."""
-    angle = np.linalg.norm(turn)
-    if angle == 0:
-        return rotation
-    x, y, z = turn / angle
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return (np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross) @ rotation
 
 
 def course(seed, options, dt=0.25):
@@ -78,8 +48,7 @@ def course(seed, options, dt=0.25):
         grows &= chance.random(options.fibers) >= catastrophe * dt
         is_gone = ~grows & ~pushes & (length < SHORTEST)
         length[is_gone], grows = SHORTEST, grows | is_gone
-        angle = np.degrees(np.arccos(min(1.0, abs(rotation[0, 1]))))
-        rows.append((step * dt, centre[0], angle, size.sum()))
+        rows.append((step * dt, centre[0], angle_to_axis(rotation), size.sum()))
     return np.array(rows).T
 
 
