@@ -35,7 +35,7 @@ class FastSum final : public FastEvaluator {
     if (n_source_ == 0 || n_target_ == 0) return;
     if (static_cast<long>(n_source_ + n_target_) > 2 * parameters_.capacity)
       tree_ = std::make_unique<Octree>(sources, targets, plan.octree);
-    if (!tree_ || tree_->refined().empty()) {
+    if (!tree_ || tree_->boxes().refined().empty()) {
       direct_ = make_direct(kernel_, {.accuracy = parameters_.accuracy, .gradient = parameters_.gradient});
       return direct_->set_points(sources, targets, normals);
     }

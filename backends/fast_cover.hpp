@@ -3,7 +3,7 @@
 // A patch of m boxes per direction needs a grid of m + 2 boxes: large patches waste less margin, small
 // ones less empty space. The cheapest set found by halving the bounding rectangle recursively is taken.
 
-#include "backends/fast_tree.hpp"
+#include "backends/fast_boxes.hpp"
 
 namespace asterflow {
 

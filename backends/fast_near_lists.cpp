@@ -40,10 +40,10 @@ void make_compact(PointArray const& points, std::uint32_t* first, std::uint32_t*
 
 void NearLists::set_points(Octree& tree) {
   tree_ = &tree;
-  auto const& leaves = tree.leaves();
+  auto const& leaves = tree.boxes().leaves();
   std::vector<std::pair<int, Box const*>> boxes;
   for (std::size_t level = 0; level < leaves.size(); ++level)
-    for (Box const& box : leaves[level])
+    for (Box const& box : leaves[level].boxes())
       if (box.targets.size() > 0) boxes.emplace_back(static_cast<int>(level), &box);
   leaves_.assign(boxes.size(), {});
   parallel_for("NearLists::set_points::order", static_cast<long>(boxes.size()), [&](long i) {
@@ -77,15 +77,15 @@ bool NearLists::is_close(long target, int n_target, std::uint32_t source) const 
 std::vector<NearLists::Candidates> NearLists::candidates(int level, Box const& box) const {
   std::vector<Candidates> found;
   for (int l = level; l >= 0; --l) {
+    if (tree_->boxes().leaves()[l].boxes().empty()) continue;
     int const shift = level - l;
     std::size_t const first = found.size();
     for (int i = 0; i < 27; ++i) {
       int const x = (box.place[0] >> shift) + i % 3 - 1, y = (box.place[1] >> shift) + i / 3 % 3 - 1,
                 z = (box.place[2] >> shift) + i / 9 - 1;
       if (std::min({x, y, z}) < 0 || std::max({x, y, z}) >= 1 << l) continue;
-      Box const* near = Octree::find(tree_->leaves()[l], x, y, z);
-      if (!near && l == level && l < static_cast<int>(tree_->refined().size()))
-        near = Octree::find(tree_->refined()[l], x, y, z);
+      Box const* near = tree_->boxes().leaf(l, x, y, z);
+      if (!near && l == level) near = tree_->boxes().refined_box(l, x, y, z);
       if (!near) continue;
       for (long begin = near->sources.begin; begin < near->sources.end; begin += list_span)
         found.push_back({l, {begin, std::min(near->sources.end, begin + list_span)}});

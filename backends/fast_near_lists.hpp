@@ -29,7 +29,7 @@ class NearLists {
 
   std::vector<Leaf> const& leaves() const { return leaves_; }  // those with targets
   int group_size() const { return group_size_; }
-  int n_level() const { return static_cast<int>(tree_->leaves().size()); }
+  int n_level() const { return static_cast<int>(tree_->boxes().leaves().size()); }
 
   PointArray const& sources() const { return tree_->sources(); }
   PointArray const& targets() const { return tree_->targets(); }

@@ -25,7 +25,7 @@ void FarPatches<Real>::set_points(Octree const& tree) {
   batches_.clear();
   add_root_patch(tree);
   close_batches(0);
-  for (int level = tree.first_level(); level < static_cast<int>(tree.refined().size()); ++level) {
+  for (int level = tree.first_level(); level < static_cast<int>(tree.boxes().refined().size()); ++level) {
     std::size_t const first = patches_.size();
     add_level_patches(tree, level);
     close_batches(first);
@@ -79,7 +79,7 @@ void FarPatches<Real>::add_level_patches(Octree const& tree, int level) {
   double const side = std::ldexp(1.0, -level), spacing = 0.5 * side / parameters_.nodes_per_cutoff;
   double const nodes_per_box = side / spacing;
   int const margin = window_.width() / 2 + 1;
-  auto const& boxes = tree.refined()[level];
+  auto const& boxes = tree.boxes().refined()[level].boxes();
   std::size_t const n_point = (tree.sources().size() + tree.targets().size()) / 2;
   auto const rectangles = cover(boxes, nodes_per_box, parameters_.max_nodes(n_point));
   std::size_t const first = patches_.size();

@@ -3,10 +3,10 @@
 #include "backends/fast_cover.hpp"
 #include "backends/fast_kernel.hpp"
 #include "backends/finite.hpp"
+#include "base/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace asterflow {
 namespace {
@@ -31,96 +31,127 @@ double part_within_cutoff(double n, double lanes) {
   return 0.85 * (a * a * a + 6.0 * a * a + 3.0 * M_PI * a + 4.0 / 3.0 * M_PI) / 27.0;
 }
 
-// Pairs in the lists of a tree that holds one of every `thinning` points.
-double near_pairs(Octree const& tree, double thinning, double lanes) {
+// One of every `stride` of some points along the Morton curve, so that every box keeps its share to within one point,
+// and the boxes of octrees over them.
+class Sample {
+ public:
+  Sample(ConstPoints sources, ConstPoints targets, long stride) : same_(is_same(sources, targets)), stride_(stride) {
+    RootCube const cube(sources, targets, 1.0);
+    sources_ = every(sources, cube);
+    if (!same_) targets_ = every(targets, cube);
+  }
+
+  // In the cube of that size.
+  struct Ordered {
+    Vec3d extent;
+    std::vector<std::uint64_t> source_keys, target_keys;
+    bool same;
+    double stride;
+
+    OctreeBoxes boxes(long capacity) const {
+      OctreeOptions const options{.capacity = std::max(4L, capacity / static_cast<long>(stride))};
+      return {source_keys, same ? source_keys : target_keys, options};
+    }
+    double n() const { return 0.5 * stride * static_cast<double>(source_keys.size() + (same ? source_keys : target_keys).size()); }
+  };
+  Ordered ordered(double enlargement) const {
+    RootCube const cube(sources_, same_ ? sources_ : targets_, enlargement);
+    return {cube.extent, keys(sources_, cube), keys(targets_, cube), same_, static_cast<double>(stride_)};
+  }
+
+ private:
+  static bool is_same(ConstPoints a, ConstPoints b) { return a.data() == b.data() && a.size() == b.size(); }
+  static std::vector<std::uint64_t> keys(PointArray const& points, RootCube const& cube) {
+    std::vector<std::uint64_t> keys;
+    for (KeyedIndex const& item : sorted_keys(points, cube)) keys.push_back(item.key);
+    return keys;
+  }
+  PointArray every(ConstPoints points, RootCube const& cube) const {
+    if (stride_ == 1) return {points.begin(), points.end()};
+    auto const order = sorted_keys(points, cube);
+    PointArray few;
+    for (std::size_t i = 0; i < order.size(); i += static_cast<std::size_t>(stride_)) few.push_back(points[order[i].index]);
+    return few;
+  }
+
+  bool same_;
+  long stride_;
+  PointArray sources_, targets_;
+};
+
+// Pairs in the lists of an octree that holds one of every `stride` points.
+double near_pairs(OctreeBoxes const& tree, double stride, double lanes) {
   double pairs = 0.0;
-  for (std::size_t level = 0; level < tree.leaves().size(); ++level)
-    for (Box const& box : tree.leaves()[level]) {
-      double const part = part_within_cutoff(thinning * static_cast<double>(box.targets.size()), lanes);
+  for (int level = 0; level < static_cast<int>(tree.leaves().size()); ++level)
+    for (Box const& box : tree.leaves()[level].boxes()) {
+      double const part = part_within_cutoff(stride * static_cast<double>(box.targets.size()), lanes);
       for (int i = 0; i < 27; ++i) {
         int const x = box.place[0] + i % 3 - 1, y = box.place[1] + i / 3 % 3 - 1, z = box.place[2] + i / 9 - 1;
         if (std::min({x, y, z}) < 0) continue;
-        Box const* near = Octree::find(tree.leaves()[level], x, y, z);
-        if (near) {
+        if (Box const* near = tree.leaf(level, x, y, z)) {
           pairs += part * static_cast<double>(box.targets.size()) * near->sources.size();
-        } else if (level < tree.refined().size() && (near = Octree::find(tree.refined()[level], x, y, z))) {
+        } else if ((near = tree.refined_box(level, x, y, z))) {
           pairs += part * static_cast<double>(box.targets.size()) * near->sources.size();
           pairs += part * static_cast<double>(box.sources.size()) * near->targets.size();
         }
       }
     }
-  return pairs * thinning * thinning;
+  return pairs * stride * stride;
 }
 
-bool is_same(ConstPoints a, ConstPoints b) { return a.data() == b.data() && a.size() == b.size(); }
-
-// One of every `stride` points along the Morton curve: every box keeps its share, to within one point.
-class Thinned {
- public:
-  Thinned(ConstPoints sources, ConstPoints targets, long stride) : sources_(sources), targets_(targets) {
-    if (stride == 1) return;
-    bool const same = is_same(sources, targets);
-    Octree const order(sources, targets, {.capacity = std::numeric_limits<long>::max() / 4});
-    few_sources_ = every(order.sources(), stride);
-    if (!same) few_targets_ = every(order.targets(), stride);
-    sources_ = few_sources_;
-    targets_ = same ? few_sources_ : few_targets_;
-  }
-  Thinned(Thinned const&) = delete;
-
-  ConstPoints sources() const { return sources_; }
-  ConstPoints targets() const { return targets_; }
-
- private:
-  static PointArray every(PointArray const& points, long stride) {
-    PointArray few;
-    for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(stride)) few.push_back(points[i]);
-    return few;
-  }
-
-  PointArray few_sources_, few_targets_;
-  ConstPoints sources_, targets_;  // those given, or the few
-};
-
 // Nodes of the grid in free space whose cutoff is the side of a box of `level`.
-double root_nodes(Octree const& tree, FastParameters const& p, int level) {
-  double const cutoff = std::ldexp(1.0, -level), reach = norm(tree.extent()) + cutoff;
+double root_nodes(Vec3d extent, FastParameters const& p, int level) {
+  double const cutoff = std::ldexp(1.0, -level), reach = norm(extent) + cutoff;
   double nodes = 1.0;
-  for (int d = 0; d < 3; ++d) nodes *= (tree.extent()[d] + reach + cutoff) * p.nodes_per_cutoff / cutoff + p.width + 2.0;
+  for (int d = 0; d < 3; ++d) nodes *= (extent[d] + reach + cutoff) * p.nodes_per_cutoff / cutoff + p.width + 2.0;
   return nodes;
 }
 
 // Of the patches of one level.
-double level_cost(Octree const& tree, FastParameters const& p, Costs const& c, std::size_t level, double thinning,
-                  double max_nodes) {
+double level_cost(std::vector<Box> const& refined, FastParameters const& p, Costs const& c, double stride, double max_nodes) {
   double const per_box = 2.0 * p.nodes_per_cutoff;
   double cost = 0.0;
-  for (Rectangle const& r : cover(tree.refined()[level], per_box, max_nodes)) {
+  for (Rectangle const& r : cover(refined, per_box, max_nodes)) {
     double nodes = 1.0;
     for (int d = 0; d < 3; ++d) nodes *= (r.high[d] - r.low[d] + 3) * per_box;
     cost += c.node * nodes;
   }
-  for (Box const& box : tree.refined()[level]) cost += 0.5 * c.point * thinning * (box.sources.size() + box.targets.size());
+  for (Box const& box : refined) cost += 0.5 * c.point * stride * (box.sources.size() + box.targets.size());
   return cost;
 }
 
-// The cheapest first level for an octree that holds one of every `thinning` points.
-Plan best_first_level(Octree const& tree, FastParameters const& p, int components, double thinning) {
+// The cheapest first level for leaves of that capacity.
+Plan best_first_level(Sample::Ordered const& points, long capacity, FastParameters const& p, Costs const& c) {
   constexpr int deepest_first = 5;
-  Costs const c = costs(p, components);
-  double const n = 0.5 * thinning * static_cast<double>(tree.sources().size() + tree.targets().size());
-  double const max_nodes = p.max_nodes(static_cast<std::size_t>(n));
-  double const near = c.pair * near_pairs(tree, thinning, p.single ? 16.0 : 8.0);
+  OctreeBoxes const tree = points.boxes(capacity);
+  double const max_nodes = p.max_nodes(static_cast<std::size_t>(points.n()));
+  double const near = c.pair * near_pairs(tree, points.stride, p.single ? 16.0 : 8.0);
   Plan best;
   double deeper = 0.0;  // levels from `first` on
   for (int first = static_cast<int>(tree.refined().size()); first >= 0; --first) {
     if (first < static_cast<int>(tree.refined().size()))
-      deeper += level_cost(tree, p, c, static_cast<std::size_t>(first), thinning, max_nodes);
-    double const nodes = root_nodes(tree, p, first);
-    double const cost = near + deeper + c.node * nodes + c.point * n;
+      deeper += level_cost(tree.refined()[first].boxes(), p, c, points.stride, max_nodes);
+    double const nodes = root_nodes(points.extent, p, first);
+    double const cost = near + deeper + c.node * nodes + c.point * points.n();
     if (first > deepest_first || nodes > max_nodes) continue;
-    if (best.cost == 0.0 || cost < best.cost) best = {{.first_level = first}, cost};
+    if (best.cost == 0.0 || cost < best.cost) best = {{capacity, first}, cost};
   }
+  return best;
+}
+
+// The cheapest octree with these sides of the root, capacities and any first level, unless `best` is cheaper.
+Plan cheapest(Sample const& sample, std::vector<double> const& enlargements, std::vector<long> const& capacities,
+              FastParameters const& p, Costs const& c, Plan best) {
+  std::vector<Sample::Ordered> ordered;
+  for (double enlargement : enlargements) ordered.push_back(sample.ordered(enlargement));
+  std::vector<Plan> plans(enlargements.size() * capacities.size());
+  parallel_for("Fast::best_plan", static_cast<long>(plans.size()), [&](long i) {
+    std::size_t const i_side = i / capacities.size();
+    plans[i] = best_first_level(ordered[i_side], capacities[i % capacities.size()], p, c);
+    plans[i].octree.enlargement = enlargements[i_side];
+  });
+  for (Plan const& plan : plans)
+    if (best.cost == 0.0 || (plan.cost > 0.0 && plan.cost < best.cost)) best = plan;
   return best;
 }
 
@@ -129,22 +160,18 @@ Plan best_first_level(Octree const& tree, FastParameters const& p, int component
 Plan best_plan(std::string_view kernel, ConstPoints sources, ConstPoints targets, FastParameters const& p) {
   require_finite(sources, "source");
   require_finite(targets, "target");
-  int const components = n_component(fast_kernel(kernel));
   long const n = static_cast<long>(sources.size() + targets.size()) / 2;
   if (sources.empty() || targets.empty() || n <= p.capacity) return {};
+  Costs const c = costs(p, n_component(fast_kernel(kernel)));
   // Some of the points are enough to compare.
-  long const stride = std::clamp(n / (p.single ? 2500 : 6000), 1L, 16L);
-  Thinned const few(sources, targets, stride);
-  Plan best;
-  for (double enlargement : {1.0, 1.26, 1.59})
-    for (long capacity : {p.capacity, 2 * p.capacity, 4 * p.capacity}) {
-      Octree const tree(few.sources(), few.targets(), OctreeOptions{std::max(4L, capacity / stride), 0, enlargement});
-      Plan plan = best_first_level(tree, p, components, static_cast<double>(stride));
-      plan.octree.capacity = capacity;
-      plan.octree.enlargement = enlargement;
-      if (best.cost == 0.0 || (plan.cost > 0.0 && plan.cost < best.cost)) best = plan;
-    }
-  return best;
+  Sample const sample(sources, targets, std::clamp(n / (p.single ? 2500 : 6000), 1L, 16L));
+  Plan const coarse = cheapest(sample, {1.0, 1.26, 1.59}, {p.capacity, 2 * p.capacity, 4 * p.capacity}, p, c, {});
+  // Half a step to either side.
+  double const side = coarse.octree.enlargement;
+  long const capacity = coarse.octree.capacity;
+  std::vector<double> sides{side, 1.12 * side};
+  if (side > 1.0) sides.push_back(side / 1.12);
+  return cheapest(sample, sides, {capacity * 5 / 7, capacity, capacity * 7 / 5}, p, c, coarse);
 }
 
 }  // namespace asterflow

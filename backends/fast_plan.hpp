@@ -4,7 +4,7 @@
 // what the one grid in free space covers.
 
 #include "backends/fast_parameters.hpp"
-#include "backends/fast_tree.hpp"
+#include "backends/fast_boxes.hpp"
 
 #include <memory>
 

@@ -1,0 +1,174 @@
+#include "backends/fast_boxes.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace asterflow {
+namespace {
+
+using Keys = std::vector<std::uint64_t>;
+
+bool by_key(Box const& a, Box const& b) { return a.key < b.key; }
+
+// Makes boxes from the sorted keys of their points.
+class BoxMaker {
+ public:
+  BoxMaker(Keys const& sources, Keys const& targets) : sources_(sources), targets_(targets) {}
+
+  Box root() const { return {0, {0, 0, 0}, {0, static_cast<long>(sources_.size())}, {0, static_cast<long>(targets_.size())}}; }
+
+  // Adds the children, of `level`, that have points.
+  void add_children(Box const& parent, int level, std::vector<Box>& children) const {
+    Range source{parent.sources.begin, parent.sources.begin}, target{parent.targets.begin, parent.targets.begin};
+    for (std::uint64_t i = 0; i < 8; ++i) {
+      std::uint64_t const key = parent.key * 8 + i;
+      source = {source.end, end_of(sources_, source.end, parent.sources.end, level, key)};
+      target = is_same() ? source : Range{target.end, end_of(targets_, target.end, parent.targets.end, level, key)};
+      if (source.size() + target.size() > 0) children.push_back(box(key, source, target));
+    }
+  }
+
+  Box any(int level, std::uint64_t key) const {
+    auto const range = [&](Keys const& keys) {
+      long const n = static_cast<long>(keys.size()), end = end_of(keys, 0, n, level, key);
+      return Range{key == 0 ? 0 : end_of(keys, 0, end, level, key - 1), end};
+    };
+    Range const sources = range(sources_);
+    return box(key, sources, is_same() ? sources : range(targets_));
+  }
+
+  // All points in one cell of the finest level: nothing to gain from refining.
+  bool is_one_place(Box const& b) const {
+    std::uint64_t low = ~std::uint64_t{0}, high = 0;
+    auto const include = [&](Keys const& keys, Range const& range) {
+      if (range.size() == 0) return;
+      low = std::min(low, keys[range.begin]);
+      high = std::max(high, keys[range.end - 1]);
+    };
+    include(sources_, b.sources);
+    include(targets_, b.targets);
+    return low == high;
+  }
+
+ private:
+  bool is_same() const { return &sources_ == &targets_; }
+
+  // The first place in begin ... end whose key is beyond the box `key` of `level`.
+  static long end_of(Keys const& keys, long begin, long end, int level, std::uint64_t key) {
+    int const shift = 3 * (morton_levels - level);
+    return std::lower_bound(keys.begin() + begin, keys.begin() + end, (key + 1) << shift) - keys.begin();
+  }
+  static Box box(std::uint64_t key, Range const& sources, Range const& targets) {
+    return {key, {morton_coordinate(key, 0), morton_coordinate(key, 1), morton_coordinate(key, 2)}, sources, targets};
+  }
+
+  Keys const& sources_;
+  Keys const& targets_;
+};
+
+std::vector<std::vector<Box>> refine(BoxMaker const& make, OctreeOptions const& options) {
+  std::vector<std::vector<Box>> levels;
+  std::vector<Box> boxes{make.root()};
+  for (int level = 0; level < OctreeBoxes::max_level && !boxes.empty(); ++level) {
+    std::vector<Box> refined, children;
+    for (Box const& box : boxes) {
+      if (level >= options.first_level && box.sources.size() + box.targets.size() <= 2 * options.capacity) continue;
+      if (make.is_one_place(box)) continue;
+      refined.push_back(box);
+      make.add_children(box, level + 1, children);
+    }
+    if (!refined.empty()) levels.push_back(std::move(refined));
+    boxes = std::move(children);
+  }
+  return levels;
+}
+
+// Parents of the neighbours of these boxes, of `level`, that are not among `above`.
+Keys missing_parents(BoxLevel const& boxes, int level, BoxLevel const& above) {
+  Keys missing;
+  int const width = 1 << level;
+  for (Box const& box : boxes.boxes())
+    for (int i = 0; i < 8; ++i) {
+      int parent[3];
+      bool inside = true;
+      for (int d = 0; d < 3; ++d) {
+        int const neighbour = box.place[d] + ((i >> d & 1) != 0 ? 1 : -1);
+        inside = inside && neighbour >= 0 && neighbour < width;
+        parent[d] = neighbour >> 1;
+      }
+      if (!inside) continue;
+      std::uint64_t const key = morton_key(parent[0], parent[1], parent[2]);
+      if (!above.find(key)) missing.push_back(key);
+    }
+  std::sort(missing.begin(), missing.end());
+  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+  return missing;
+}
+
+}  // namespace
+
+BoxLevel::BoxLevel(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
+  if (!std::is_sorted(boxes_.begin(), boxes_.end(), by_key)) std::sort(boxes_.begin(), boxes_.end(), by_key);
+  slots_.assign(2 * std::bit_ceil(boxes_.size() + 1), 0);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    std::size_t at = slot(boxes_[i].key);
+    while (slots_[at] != 0) at = (at + 1) & (slots_.size() - 1);
+    slots_[at] = static_cast<std::uint32_t>(i + 1);
+  }
+}
+
+std::size_t BoxLevel::slot(std::uint64_t key) const {
+  return (key * 0x9e3779b97f4a7c15u) >> (64 - std::countr_zero(slots_.size()));
+}
+
+Box const* BoxLevel::find(std::uint64_t key) const {
+  if (boxes_.empty()) return nullptr;
+  for (std::size_t at = slot(key); slots_[at] != 0; at = (at + 1) & (slots_.size() - 1))
+    if (boxes_[slots_[at] - 1].key == key) return &boxes_[slots_[at] - 1];
+  return nullptr;
+}
+
+OctreeBoxes::OctreeBoxes(Keys const& source_keys, Keys const& target_keys, OctreeOptions const& options) {
+  BoxMaker const make(source_keys, target_keys);
+  auto levels = refine(make, options);
+  refined_.resize(levels.size());
+  // A refined box needs its neighbours of the same size to exist, hence their parents to be refined.
+  for (int level = static_cast<int>(levels.size()) - 1; level >= 0; --level) {
+    refined_[level] = BoxLevel(std::move(levels[level]));
+    if (level + 1 == static_cast<int>(levels.size())) continue;
+    std::vector<Box> more;
+    for (std::uint64_t key : missing_parents(refined_[level + 1], level + 1, refined_[level])) {
+      Box const box = make.any(level, key);
+      if (box.sources.size() + box.targets.size() > 0) more.push_back(box);
+    }
+    if (more.empty()) continue;
+    more.insert(more.end(), refined_[level].boxes().begin(), refined_[level].boxes().end());
+    refined_[level] = BoxLevel(std::move(more));
+  }
+  leaves_.resize(refined_.size() + 1);
+  if (refined_.empty()) leaves_[0] = BoxLevel({make.root()});
+  for (std::size_t level = 0; level < refined_.size(); ++level) {
+    std::vector<Box> children;
+    for (Box const& box : refined_[level].boxes()) make.add_children(box, static_cast<int>(level) + 1, children);
+    if (level + 1 < refined_.size())
+      std::erase_if(children, [&](Box const& child) { return refined_[level + 1].find(child.key) != nullptr; });
+    leaves_[level + 1] = BoxLevel(std::move(children));
+  }
+}
+
+Box const* OctreeBoxes::leaf(int level, int x, int y, int z) const {
+  return leaves_[level].find(morton_key(x, y, z));
+}
+
+Box const* OctreeBoxes::refined_box(int level, int x, int y, int z) const {
+  return level < static_cast<int>(refined_.size()) ? refined_[level].find(morton_key(x, y, z)) : nullptr;
+}
+
+std::size_t OctreeBoxes::memory() const {
+  std::size_t bytes = 0;
+  for (auto const* levels : {&refined_, &leaves_})
+    for (BoxLevel const& level : *levels) bytes += level.memory();
+  return bytes;
+}
+
+}  // namespace asterflow

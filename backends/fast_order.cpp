@@ -1,0 +1,89 @@
+#include "backends/fast_order.hpp"
+
+#include "backends/blocks.hpp"
+#include "backends/fast_sort.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace asterflow {
+namespace {
+
+std::uint64_t spread_bits(std::uint64_t x) {
+  x &= 0x1fffff;
+  x = (x | x << 32) & 0x1f00000000ffff;
+  x = (x | x << 16) & 0x1f0000ff0000ff;
+  x = (x | x << 8) & 0x100f00f00f00f00f;
+  x = (x | x << 4) & 0x10c30c30c30c30c3;
+  return (x | x << 2) & 0x1249249249249249;
+}
+
+void extend(ConstPoints points, Vec3d& low, Vec3d& high) {
+  for (Vec3d const& p : points)
+    for (int d = 0; d < 3; ++d) {
+      low[d] = p[d] < low[d] ? p[d] : low[d];
+      high[d] = p[d] > high[d] ? p[d] : high[d];
+    }
+}
+
+bool is_same(ConstPoints a, ConstPoints b) { return a.data() == b.data() && a.size() == b.size(); }
+
+}  // namespace
+
+std::uint64_t morton_key(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
+  return spread_bits(x) | spread_bits(y) << 1 | spread_bits(z) << 2;
+}
+
+int morton_coordinate(std::uint64_t key, int direction) {
+  std::uint64_t x = (key >> direction) & 0x1249249249249249;
+  x = (x | x >> 2) & 0x10c30c30c30c30c3;
+  x = (x | x >> 4) & 0x100f00f00f00f00f;
+  x = (x | x >> 8) & 0x1f0000ff0000ff;
+  x = (x | x >> 16) & 0x1f00000000ffff;
+  return static_cast<int>((x | x >> 32) & 0x1fffff);
+}
+
+RootCube::RootCube(ConstPoints sources, ConstPoints targets, double enlargement) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  Vec3d low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
+  extend(sources, low, high);
+  if (!is_same(sources, targets)) extend(targets, low, high);
+  extent = high - low;
+  double const widest = std::max({extent.x, extent.y, extent.z});
+  side = widest > 0.0 ? widest * enlargement * (1.0 + 1e-9) : 1.0;
+  extent = extent / side;
+  int exponent = 0;
+  unit_side = std::frexp(side, &exponent);
+  double const unit = std::ldexp(1.0, exponent);
+  for (int d = 0; d < 3; ++d) origin[d] = std::abs(low[d]) < 4.0 * unit ? 0.0 : std::floor(low[d] / unit) * unit;
+  corner = (low - origin) * (1.0 / unit);
+}
+
+std::vector<KeyedIndex> sorted_keys(ConstPoints points, RootCube const& cube) {
+  std::vector<KeyedIndex> items(points.size());
+  constexpr double cells = static_cast<double>(1 << morton_levels);
+  for_blocks("Fast::morton_keys", static_cast<long>(points.size()), [&](long i) {
+    Vec3d const p = cube.normalised(cube.placed(points[i]));
+    auto const cell = [&](double x) { return static_cast<std::uint64_t>(std::clamp(x * cells, 0.0, cells - 1.0)); };
+    items[i] = {morton_key(cell(p.x), cell(p.y), cell(p.z)), static_cast<std::uint32_t>(i)};
+  });
+  sort_by_key(items);
+  return items;
+}
+
+OrderedPoints order_points(ConstPoints points, RootCube const& cube) {
+  auto const items = sorted_keys(points, cube);
+  OrderedPoints ordered;
+  ordered.keys.resize(items.size());
+  ordered.order.resize(items.size());
+  ordered.points.resize(items.size());
+  for_blocks("Fast::order_points", static_cast<long>(items.size()), [&](long i) {
+    ordered.keys[i] = items[i].key;
+    ordered.order[i] = items[i].index;
+    ordered.points[i] = cube.placed(points[items[i].index]);
+  });
+  return ordered;
+}
+
+}  // namespace asterflow
