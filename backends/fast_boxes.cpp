@@ -107,24 +107,39 @@ Keys missing_parents(BoxLevel const& boxes, int level, BoxLevel const& above) {
 
 }  // namespace
 
+std::array<std::uint64_t, 27> neighbour_keys(int const (&place)[3], int level) {
+  std::uint64_t along[3][3];  // key of the coordinates place - 1, place, place + 1 of each direction
+  for (int d = 0; d < 3; ++d)
+    for (int i = 0; i < 3; ++i) {
+      int const x = place[d] + i - 1;
+      along[d][i] = x < 0 || x >= 1 << level ? no_key : morton_key(x, 0, 0) << d;
+    }
+  std::array<std::uint64_t, 27> keys;
+  for (int i = 0; i < 27; ++i) {
+    std::uint64_t const x = along[0][i % 3], y = along[1][i / 3 % 3], z = along[2][i / 9];
+    keys[i] = x == no_key || y == no_key || z == no_key ? no_key : x | y | z;
+  }
+  return keys;
+}
+
 BoxLevel::BoxLevel(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
   if (!std::is_sorted(boxes_.begin(), boxes_.end(), by_key)) std::sort(boxes_.begin(), boxes_.end(), by_key);
-  slots_.assign(2 * std::bit_ceil(boxes_.size() + 1), 0);
+  slots_.assign(2 * std::bit_ceil(boxes_.size() + 1), {no_key, 0});
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    std::size_t at = slot(boxes_[i].key);
-    while (slots_[at] != 0) at = (at + 1) & (slots_.size() - 1);
-    slots_[at] = static_cast<std::uint32_t>(i + 1);
+    std::size_t at = first_slot(boxes_[i].key);
+    while (slots_[at].key != no_key) at = (at + 1) & (slots_.size() - 1);
+    slots_[at] = {boxes_[i].key, static_cast<std::uint32_t>(i)};
   }
 }
 
-std::size_t BoxLevel::slot(std::uint64_t key) const {
+std::size_t BoxLevel::first_slot(std::uint64_t key) const {
   return (key * 0x9e3779b97f4a7c15u) >> (64 - std::countr_zero(slots_.size()));
 }
 
 Box const* BoxLevel::find(std::uint64_t key) const {
   if (boxes_.empty()) return nullptr;
-  for (std::size_t at = slot(key); slots_[at] != 0; at = (at + 1) & (slots_.size() - 1))
-    if (boxes_[slots_[at] - 1].key == key) return &boxes_[slots_[at] - 1];
+  for (std::size_t at = first_slot(key); slots_[at].key != no_key; at = (at + 1) & (slots_.size() - 1))
+    if (slots_[at].key == key) return &boxes_[slots_[at].index];
   return nullptr;
 }
 
@@ -154,14 +169,6 @@ OctreeBoxes::OctreeBoxes(Keys const& source_keys, Keys const& target_keys, Octre
       std::erase_if(children, [&](Box const& child) { return refined_[level + 1].find(child.key) != nullptr; });
     leaves_[level + 1] = BoxLevel(std::move(children));
   }
-}
-
-Box const* OctreeBoxes::leaf(int level, int x, int y, int z) const {
-  return leaves_[level].find(morton_key(x, y, z));
-}
-
-Box const* OctreeBoxes::refined_box(int level, int x, int y, int z) const {
-  return level < static_cast<int>(refined_.size()) ? refined_[level].find(morton_key(x, y, z)) : nullptr;
 }
 
 std::size_t OctreeBoxes::memory() const {

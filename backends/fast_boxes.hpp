@@ -4,6 +4,8 @@
 
 #include "backends/fast_order.hpp"
 
+#include <array>
+
 namespace asterflow {
 
 struct Range {
@@ -23,6 +25,10 @@ struct OctreeOptions {
   double enlargement = 1.0; // side of the unit cube over the largest extent of the points
 };
 
+// Keys of a box and the 26 around it; no_key where there is no such place.
+inline constexpr std::uint64_t no_key = ~std::uint64_t{0};
+std::array<std::uint64_t, 27> neighbour_keys(int const (&place)[3], int level);
+
 // The boxes of one kind and level, sorted by key, and where each of them is.
 class BoxLevel {
  public:
@@ -31,13 +37,13 @@ class BoxLevel {
 
   std::vector<Box> const& boxes() const { return boxes_; }
   Box const* find(std::uint64_t key) const;
-  std::size_t memory() const { return sizeof(Box) * boxes_.capacity() + sizeof(std::uint32_t) * slots_.capacity(); }
+  std::size_t memory() const { return sizeof(Box) * boxes_.capacity() + sizeof(KeyedIndex) * slots_.capacity(); }
 
  private:
-  std::size_t slot(std::uint64_t key) const;
+  std::size_t first_slot(std::uint64_t key) const;
 
   std::vector<Box> boxes_;
-  std::vector<std::uint32_t> slots_;  // open addressing: place + 1 of a box, 0 where there is none
+  std::vector<KeyedIndex> slots_;  // open addressing; no_key where there is no box
 };
 
 class OctreeBoxes {
@@ -53,9 +59,11 @@ class OctreeBoxes {
   std::vector<BoxLevel> const& refined() const { return refined_; }
   std::vector<BoxLevel> const& leaves() const { return leaves_; }
 
-  // The box of that place, if it is one of these.
-  Box const* leaf(int level, int x, int y, int z) const;
-  Box const* refined_box(int level, int x, int y, int z) const;
+  // The box of that key, if it is one of these.
+  Box const* leaf(int level, std::uint64_t key) const { return leaves_[level].find(key); }
+  Box const* refined_box(int level, std::uint64_t key) const {
+    return level < static_cast<int>(refined_.size()) ? refined_[level].find(key) : nullptr;
+  }
 
   std::size_t memory() const;
 

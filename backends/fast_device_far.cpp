@@ -67,8 +67,8 @@ template <class Real>
 DeviceFar<Real>::DeviceFar(FastKernel kernel, FastParameters const& parameters)
     : kernel_(kernel),
       components_(n_component(kernel)),
-      patches_(kernel, for_device(parameters), 1,
-               [this](Patch<Real>& patch, PointArray const& points, std::vector<Range> const& ranges) {
+      patches_(kernel, for_device(parameters), 1, block_edge,
+               [this](Patch<Real> const& patch, PointArray const& points, std::vector<Range> const& ranges) {
                  return sort_into_blocks(patches_.window(), patch, points, ranges);
                }) {
   WindowView<Real> const window = patches_.window().view();

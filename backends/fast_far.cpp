@@ -27,9 +27,8 @@ FarField<Real>::FarField(FastKernel kernel, FastLoops<Real> const& loops, FastPa
     : kernel_(kernel),
       loops_(loops),
       components_(n_component(kernel)),
-      patches_(kernel, parameters, loops.lanes,
-               [this](Patch<Real>& patch, PointArray const& points, std::vector<Range> const& ranges) {
-                 patch.set_tiles(loops_, patches_.window().width());
+      patches_(kernel, parameters, loops.lanes, loops.tile_y,
+               [this](Patch<Real> const& patch, PointArray const& points, std::vector<Range> const& ranges) {
                  return patches_.window().tile(patch, points, ranges);
                }) {}
 

@@ -80,12 +80,10 @@ std::vector<NearLists::Candidates> NearLists::candidates(int level, Box const& b
     if (tree_->boxes().leaves()[l].boxes().empty()) continue;
     int const shift = level - l;
     std::size_t const first = found.size();
-    for (int i = 0; i < 27; ++i) {
-      int const x = (box.place[0] >> shift) + i % 3 - 1, y = (box.place[1] >> shift) + i / 3 % 3 - 1,
-                z = (box.place[2] >> shift) + i / 9 - 1;
-      if (std::min({x, y, z}) < 0 || std::max({x, y, z}) >= 1 << l) continue;
-      Box const* near = tree_->boxes().leaf(l, x, y, z);
-      if (!near && l == level) near = tree_->boxes().refined_box(l, x, y, z);
+    int const place[3] = {box.place[0] >> shift, box.place[1] >> shift, box.place[2] >> shift};
+    for (std::uint64_t key : neighbour_keys(place, l)) {
+      Box const* near = tree_->boxes().leaf(l, key);
+      if (!near && l == level) near = tree_->boxes().refined_box(l, key);
       if (!near) continue;
       for (long begin = near->sources.begin; begin < near->sources.end; begin += list_span)
         found.push_back({l, {begin, std::min(near->sources.end, begin + list_span)}});

@@ -43,8 +43,8 @@ struct Patch {
   LineView<Real> lines[3];
 
   // A window of `width` nodes may begin in one tile and end in the next; small tiles stay in the cache.
-  void set_tiles(FastLoops<Real> const& loops, int width) {
-    tile_y = loops.tile_y;
+  void set_tiles(int edge_y, int width) {
+    tile_y = edge_y;
     tile_z = width < 8 ? 8 : width;
     tiles_y = nodes[1] < tile_y ? 1 : nodes[1] / tile_y;
     tiles_z = nodes[2] < tile_z ? 1 : nodes[2] / tile_z;

@@ -11,11 +11,13 @@
 namespace asterflow {
 
 template <class Real>
-FarPatches<Real>::FarPatches(FastKernel kernel, FastParameters const& parameters, int lanes, Tiling tiling)
+FarPatches<Real>::FarPatches(FastKernel kernel, FastParameters const& parameters, int lanes, int tile_y,
+                             Tiling tiling)
     : kernel_(kernel),
       parameters_(parameters),
       split_(parameters.split_shape),
       lanes_(lanes),
+      tile_y_(tile_y),
       tiling_(std::move(tiling)),
       window_(parameters.width, parameters.window_shape, parameters.sums_in_double) {}
 
@@ -41,6 +43,7 @@ void FarPatches<Real>::set_grid(Octree const& tree, Patch<Real>& patch, bool is_
   for (int d = 0; d < 3; ++d)
     patch.lines[d] = transforms_.try_emplace(patch.nodes[d], patch.nodes[d]).first->second.view();
   patch.symbol = symbol(patch, is_root);
+  patch.set_tiles(tile_y_, window_.width());
 }
 
 // The whole domain in free space: biharmonic function cut off smoothly at the diameter plus the window,
@@ -62,16 +65,22 @@ void FarPatches<Real>::add_root_patch(Octree const& tree) {
     patch.target_high[d] = std::min(patch.nodes[d], static_cast<int>(std::ceil(extent[d] / spacing + 2.0 * margin)) + 1);
   }
   set_grid(tree, patch, true);
-  Range const sources{0, static_cast<long>(tree.sources().size())}, targets{0, static_cast<long>(tree.targets().size())};
-  tile_points(tree, patch, {sources}, {targets});
   patches_.push_back(std::move(patch));
+  tile_points(tree, 0, {{{0, static_cast<long>(tree.sources().size())}}}, {{{0, static_cast<long>(tree.targets().size())}}});
 }
 
+// Of the patches from `first` on, each with its ranges of sources and targets.
 template <class Real>
-void FarPatches<Real>::tile_points(Octree const& tree, Patch<Real>& patch, std::vector<Range> const& sources,
-                                   std::vector<Range> const& targets) const {
-  patch.sources = tiling_(patch, tree.sources(), sources);
-  patch.targets = tiling_(patch, tree.targets(), targets);
+void FarPatches<Real>::tile_points(Octree const& tree, std::size_t first, std::vector<std::vector<Range>> const& sources,
+                                   std::vector<std::vector<Range>> const& targets) {
+  parallel_for("FarPatches::tile_points", static_cast<long>(2 * sources.size()), [&](long i) {
+    std::size_t const k = i / 2;
+    Patch<Real>& patch = patches_[first + k];
+    if (i % 2 == 0)
+      patch.sources = tiling_(patch, tree.sources(), sources[k]);
+    else
+      patch.targets = tiling_(patch, tree.targets(), targets[k]);
+  });
 }
 
 template <class Real>
@@ -96,17 +105,17 @@ void FarPatches<Real>::add_level_patches(Octree const& tree, int level) {
     }
     set_grid(tree, patch, false);
   }
+  std::vector<std::vector<Range>> sources(rectangles.size()), targets(rectangles.size());
   parallel_for("FarPatches::add_level_patches", static_cast<long>(rectangles.size()), [&](long i) {
     Rectangle const& r = rectangles[i];
-    std::vector<Range> sources, targets;
-    for (Box const* box : r.boxes) targets.push_back(box->targets);
+    for (Box const* box : r.boxes) targets[i].push_back(box->targets);
     for (Box const& box : boxes) {
       bool inside = true;
       for (int d = 0; d < 3; ++d) inside = inside && box.place[d] >= r.low[d] - 1 && box.place[d] <= r.high[d] + 1;
-      if (inside) sources.push_back(box.sources);
+      if (inside) sources[i].push_back(box.sources);
     }
-    tile_points(tree, patches_[first + i], sources, targets);
   });
+  tile_points(tree, first, sources, targets);
 }
 
 template <class Real>

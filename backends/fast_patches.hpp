@@ -15,16 +15,16 @@ namespace asterflow {
 template <class Real>
 class FarPatches {
  public:
-  // Sorts the points of the given ranges into the tiles of a patch, whose sizes it may set.
-  using Tiling = std::function<TiledPoints(Patch<Real>&, PointArray const& points, std::vector<Range> const&)>;
+  // Sorts the points of the given ranges into the tiles of a patch.
+  using Tiling = std::function<TiledPoints(Patch<Real> const&, PointArray const& points, std::vector<Range> const&)>;
 
   // Patches of one level, of bounded total size, handled together.
   struct Batch {
     std::size_t first, last;
   };
 
-  // lanes: numbers of a vector; rows of tables are whole vectors.
-  FarPatches(FastKernel kernel, FastParameters const& parameters, int lanes, Tiling tiling);
+  // lanes: numbers of a vector; rows of tables are whole vectors. tile_y: see FastLoops.
+  FarPatches(FastKernel kernel, FastParameters const& parameters, int lanes, int tile_y, Tiling tiling);
 
   void set_points(Octree const& tree);
 
@@ -41,16 +41,16 @@ class FarPatches {
  private:
   void add_root_patch(Octree const& tree);
   void add_level_patches(Octree const& tree, int level);
+  void tile_points(Octree const& tree, std::size_t first, std::vector<std::vector<Range>> const& sources,
+                   std::vector<std::vector<Range>> const& targets);
   void set_grid(Octree const& tree, Patch<Real>& patch, bool is_root);
-  void tile_points(Octree const& tree, Patch<Real>& patch, std::vector<Range> const& sources,
-                   std::vector<Range> const& targets) const;
   std::shared_ptr<SymbolTable<Real> const> symbol(Patch<Real> const& patch, bool is_root);
   void close_batches(std::size_t first);
 
   FastKernel kernel_;
   FastParameters parameters_;
   KernelSplit split_;
-  int lanes_;
+  int lanes_, tile_y_;
   Tiling tiling_;
   GridWindow<Real> window_;
   std::map<int, LineTransform<Real>> transforms_;

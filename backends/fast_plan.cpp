@@ -85,12 +85,10 @@ double near_pairs(OctreeBoxes const& tree, double stride, double lanes) {
   for (int level = 0; level < static_cast<int>(tree.leaves().size()); ++level)
     for (Box const& box : tree.leaves()[level].boxes()) {
       double const part = part_within_cutoff(stride * static_cast<double>(box.targets.size()), lanes);
-      for (int i = 0; i < 27; ++i) {
-        int const x = box.place[0] + i % 3 - 1, y = box.place[1] + i / 3 % 3 - 1, z = box.place[2] + i / 9 - 1;
-        if (std::min({x, y, z}) < 0) continue;
-        if (Box const* near = tree.leaf(level, x, y, z)) {
+      for (std::uint64_t key : neighbour_keys(box.place, level)) {
+        if (Box const* near = tree.leaf(level, key)) {
           pairs += part * static_cast<double>(box.targets.size()) * near->sources.size();
-        } else if ((near = tree.refined_box(level, x, y, z))) {
+        } else if ((near = tree.refined_box(level, key))) {
           pairs += part * static_cast<double>(box.targets.size()) * near->sources.size();
           pairs += part * static_cast<double>(box.sources.size()) * near->targets.size();
         }
