@@ -7,7 +7,7 @@ import numpy as np
 
 from drawing import draw_course, draw_plane
 from pushing import TURNOVER_TIMES, draw_end_forces, no_sliding_runs, record_end_forces
-from study import Study, centring_time, mean_over, minutes, rotation_time
+from study import Study, centring_time, first_time, mean_over, minutes, rotation_time
 
 PAPER = {3: ("15 min", 3.0, (14.8, 14.3, 0.97)), 5: ("8 min", 3.5, (19.3, 17.7, 0.92)), 10: ("8 min", 1.6, (23.3, 19.3, 0.82))}
 
@@ -20,11 +20,13 @@ for (plane, course, forces), turnover_time in zip(axes.T, TURNOVER_TIMES):
         draw_plane(plane, flow)
     plane.set_title(f"turnover time {turnover_time} s, {study.options.fibers} microtubules")
     draw_course(course, tables)
-    draw_end_forces(forces, tables[0], "")
+    draw_end_forces(forces, tables, "")
     name, (centring, ratio, force) = f"turnover {turnover_time} s", PAPER[turnover_time]
-    times = np.array([(centring_time(t), rotation_time(t)) for t in tables])
-    study.record(f"{name}: centring time", centring, ", ".join(minutes(c, t) for (c, _), t in zip(times, tables)))
-    study.record(f"{name}: rotation / centring time", ratio, float(f"{np.nanmean(times[:, 1] / times[:, 0]):.3g}")
+    times = np.array([(centring_time(t, 2.0), rotation_time(t)) for t in tables])
+    study.record(f"{name}: time to within 2 um of the centre", centring, ", ".join(minutes(c, t) for (c, _), t in zip(times, tables)))
+    study.record(f"{name}: time to pass the centre", centring, ", ".join(minutes(first_time(t["time"], t["pnc_x"] <= 0), t) for t in tables))
+    study.record(f"{name}: time to align within 10 degrees", "", ", ".join(minutes(r, t) for (_, r), t in zip(times, tables)))
+    study.record(f"{name}: rotation time over that to 2 um", ratio, float(f"{np.nanmean(times[:, 1] / times[:, 0]):.3g}")
                  if np.isfinite(times).all(axis=1).any() else "not reached")
     study.record(f"{name}: position at {tables[0]['time'][-1] / 60:.1f} min", "", f"{np.mean([t['pnc_x'][-1] for t in tables]):.2f} um")
     study.record(f"{name}: curvature (1/um)", "grows with turnover time",

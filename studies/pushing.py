@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from drawing import SEED_STYLES
 from study import mean_over
 
 TURNOVER_TIMES = (3, 5, 10)  # s, 1 / f_min
@@ -14,10 +15,11 @@ def no_sliding_runs(study, turnover_time):
                       pushing__minimal_catastrophe_rate=rate)
 
 
-def draw_end_forces(axis, table, title):
-    """Total force on plus ends (red) and minus ends (blue) of the fibers at the cortex against minutes."""
-    for column, color, label in (("plus_end_force", "tab:red", "plus ends"), ("minus_end_force", "tab:blue", "minus ends")):
-        axis.plot(table["time"] / 60, table[column], color=color, linewidth=0.9, label=label)
+def draw_end_forces(axis, tables, title):
+    """Total force on plus ends (red) and minus ends (blue) of the fibers at the cortex against minutes, of every seed."""
+    for table, style in zip(tables, SEED_STYLES):
+        for column, color, label in (("plus_end_force", "tab:red", "plus ends"), ("minus_end_force", "tab:blue", "minus ends")):
+            axis.plot(table["time"] / 60, table[column], style, color=color, linewidth=0.9, label=label if table is tables[0] else None)
     axis.set(title=title, xlabel="time (min)", ylabel="total force (pN)")
     axis.legend(fontsize=8)
 

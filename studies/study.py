@@ -89,8 +89,10 @@ class Study:
         return folder
 
     def runs(self, name, scene, end_time, **changes):
-        """The same with every seed."""
-        return [self.run(name, scene, end_time, seed, **changes) for seed in self.options.seeds]
+        """The same with every seed; with --drawing-only those that have been run."""
+        folders = [self.run(name, scene, end_time, seed, **changes) for seed in self.options.seeds]
+        is_there = [(folder / "trajectory.h5").exists() for folder in folders]
+        return [f for f, there in zip(folders, is_there) if there] if self.options.drawing_only and any(is_there) else folders
 
     @staticmethod
     def times(run):
