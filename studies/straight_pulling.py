@@ -13,7 +13,7 @@ posterior pole, linear to `--plane-factor` at the plane through the PNC, 1 in fr
 Expected: a microtubule that is let go comes back to the cortex, a distance D away, after
     T(D) = (1 / V_g + 1 / V_s) l (exp(D / l) - 1),    1 / l = f_cat / V_g - f_res / V_s
 on average, and the centre is stable when the share s of sites that hold one is above g / (2 + g), g = R T'(D) / T(D)
-(docs/paper, "The law of capture"). R: from the centre of the cell to the cortex, D: from there to a centrosome less."""
+(docs/paper/capture.md). R: from the centre of the cell to the cortex, D: from there to a centrosome less."""
 
 import argparse
 
@@ -111,10 +111,21 @@ def course(seed, options, held_at=None, dt=0.25):
     return np.array(rows).T
 
 
+def decay_rate(options):
+    """1 / l, 1/um: how fast growing plus ends die out."""
+    return 1 / MEAN_LENGTH - options.rescue / options.shrinkage
+
+
+def return_time(options, gap):
+    """s on average until a plus end that shrinks from the cortex, `gap` (um) away from its centrosome, is back: T(D)."""
+    decay = decay_rate(options)
+    return (1 / options.growth + 1 / options.shrinkage) * (np.expm1(decay * gap) / decay if decay else gap)
+
+
 def threshold(options, semi_axis, gap):
     """Share of sites in use above which the centre is stable towards the cortex at R = `semi_axis` (um), D = `gap` (um)."""
-    decay = 1 / MEAN_LENGTH - options.rescue / options.shrinkage  # 1/um, 1 / l
-    steepness = semi_axis / gap if decay == 0 else semi_axis * decay / (1 - np.exp(-decay * gap))
+    slope = (1 / options.growth + 1 / options.shrinkage) * np.exp(decay_rate(options) * gap)  # T'(D), s/um
+    steepness = semi_axis * slope / return_time(options, gap)
     return steepness / (2 + steepness)
 
 

@@ -5,6 +5,7 @@ import subprocess
 import sys
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 from program import ASTERFLOW, CommandTest
@@ -33,6 +34,25 @@ class Studies(CommandTest):
         self.assertIn("not within 0.1 min", first["time to within 1 um of the centre"])
         longer = self.study("figure06", "--fibers", 6, "--end-time", 12)
         self.assertIn("not within 0.2 min", longer["time to within 1 um of the centre"])
+
+    def test_a_plus_end_is_back_at_the_cortex_after_the_expected_time(self):
+        sys.path.insert(0, str(STUDIES))
+        from straight_pulling import return_time
+
+        chance, gap, catastrophe, rescue, speed = np.random.default_rng(1), 15.0, 0.0625, 0.02, 0.5
+
+        def walk():
+            place, time, grows = gap, 0.0, False
+            while True:
+                path = speed * chance.exponential(1 / (catastrophe if grows else rescue))
+                if grows and place + path >= gap:
+                    return time + (gap - place) / speed
+                path = path if grows else min(path, place)
+                place, time, grows = place + (path if grows else -path), time + path / speed, not grows
+
+        times = [walk() for _ in range(2000)]
+        options = SimpleNamespace(growth=speed, shrinkage=speed, rescue=rescue)
+        self.assertLess(abs(np.mean(times) - return_time(options, gap)), 4 * np.std(times) / len(times)**0.5)
 
     def test_an_exponential_turn_has_its_growth_rate(self):
         sys.path.insert(0, str(STUDIES))
