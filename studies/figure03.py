@@ -5,9 +5,10 @@ from mechanism import draw_mechanism, record_course, record_shape, spread
 from study import Study, mean_over
 
 study = Study("figure03", __doc__)
-runs = study.runs("cortical_pulling", "cortical_pulling.toml", 900.0)
+runs = study.runs("cortical_pulling", "cortical_pulling.toml", 2400.0)
 picture, tables = draw_mechanism(study, runs, "cortical pulling")
 record_course(study, tables, "centres, within about 10 min", "aligns, with the centring")
-study.record("captured fibers", "about 32 on each side", spread([mean_over(t, "fibers_captured", 60.0) for t in tables]))
+study.record("captured fibers at the end", "about 32 on each side",
+             spread([mean_over(t, "fibers_captured", t["time"][-1] - 300.0) for t in tables]))
 record_shape(study, tables)
 study.finish(picture)
