@@ -1,6 +1,7 @@
 #include "backends/fast_plan.hpp"
 
 #include "backends/fast_cover.hpp"
+#include "backends/fast_fourier.hpp"
 #include "backends/fast_kernel.hpp"
 #include "backends/finite.hpp"
 #include "base/parallel.hpp"
@@ -20,15 +21,16 @@ Costs costs(FastParameters const& p, int components) {
   double const terms = 0.9 * p.split_shape - 2.0, width2 = static_cast<double>(p.width) * p.width;
   double const in_float = 4.0 * width2 + 100.0, in_double = 7.2 * width2 + 96.0;
   double const spread = p.sums_in_double ? in_double : in_float, interpolate = p.single ? in_float : in_double;
-  double const pair = (p.single ? 0.019 : 0.038) * (25.0 + 2.0 * terms);
+  double const pair = (p.single ? 0.019 : 0.038) * ((p.refinement_steps > 0 ? 25.0 : 18.0) + 2.0 * terms);
   return {pair, (p.single ? 1.5 : 3.7) * (components + 3), components / 6.0 * spread + 0.5 * interpolate};
 }
 
 // Of the 27 boxes around a leaf with n targets, the part that a group of `lanes` of them has within the cutoff: the
-// cutoff's ball around a box of side a, less what the corners of the box do not reach.
+// cutoff's ball around a box of side a, less what the corners of the box do not reach; more where many points of a leaf
+// gather in a part of it (fitted).
 double part_within_cutoff(double n, double lanes) {
   double const a = std::min(1.0, std::cbrt(lanes / std::max(n, 1.0)));
-  return 0.85 * (a * a * a + 6.0 * a * a + 3.0 * M_PI * a + 4.0 / 3.0 * M_PI) / 27.0;
+  return 0.85 * (1.0 + 0.001 * n) * (a * a * a + 6.0 * a * a + 3.0 * M_PI * a + 4.0 / 3.0 * M_PI) / 27.0;
 }
 
 // One of every `stride` of some points along the Morton curve, so that every box keeps its share to within one point,
@@ -101,7 +103,8 @@ double near_pairs(OctreeBoxes const& tree, double stride, double lanes) {
 double root_nodes(Vec3d extent, FastParameters const& p, int level) {
   double const cutoff = std::ldexp(1.0, -level), reach = norm(extent) + cutoff;
   double nodes = 1.0;
-  for (int d = 0; d < 3; ++d) nodes *= (extent[d] + reach + cutoff) * p.nodes_per_cutoff / cutoff + p.width + 2.0;
+  for (int d = 0; d < 3; ++d)
+    nodes *= transform_length(static_cast<int>(std::ceil((extent[d] + reach + cutoff) * p.nodes_per_cutoff / cutoff + p.width + 2.0)));
   return nodes;
 }
 
@@ -111,7 +114,7 @@ double level_cost(std::vector<Box> const& refined, FastParameters const& p, Cost
   double cost = 0.0;
   for (Rectangle const& r : cover(refined, per_box, max_nodes)) {
     double nodes = 1.0;
-    for (int d = 0; d < 3; ++d) nodes *= (r.high[d] - r.low[d] + 3) * per_box;
+    for (int d = 0; d < 3; ++d) nodes *= transform_length(static_cast<int>(std::ceil((r.high[d] - r.low[d] + 3) * per_box)));
     cost += c.node * nodes;
   }
   for (Box const& box : refined) cost += 0.5 * c.point * stride * (box.sources.size() + box.targets.size());
@@ -161,15 +164,16 @@ Plan best_plan(std::string_view kernel, ConstPoints sources, ConstPoints targets
   long const n = static_cast<long>(sources.size() + targets.size()) / 2;
   if (sources.empty() || targets.empty() || n <= p.capacity) return {};
   Costs const c = costs(p, n_component(fast_kernel(kernel)));
-  // Some of the points are enough to compare.
-  Sample const sample(sources, targets, std::clamp(n / (p.single ? 2500 : 6000), 1L, 16L));
+  // Some of many points are enough to compare. Of few, a box that is refined in one tree only would make a difference.
+  long const enough = p.single && !p.sums_in_double ? 5000 : 20000;
+  Sample const sample(sources, targets, std::clamp(n / enough, 1L, 16L));
   Plan const coarse = cheapest(sample, {1.0, 1.26, 1.59}, {p.capacity, 2 * p.capacity, 4 * p.capacity}, p, c, {});
   // Half a step to either side.
   double const side = coarse.octree.enlargement;
   long const capacity = coarse.octree.capacity;
   std::vector<double> sides{side, 1.12 * side};
   if (side > 1.0) sides.push_back(side / 1.12);
-  return cheapest(sample, sides, {capacity * 5 / 7, capacity, capacity * 7 / 5}, p, c, coarse);
+  return cheapest(sample, sides, {capacity * 5 / 7, capacity, std::min(capacity * 7 / 5, 4 * p.capacity)}, p, c, coarse);
 }
 
 }  // namespace asterflow

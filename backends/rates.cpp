@@ -22,9 +22,9 @@ struct KernelRates {
   std::array<double, 4> pair, plan;
 };
 constexpr std::array built_in{
-    KernelRates{"stokeslet", {0.245, 0.28, 0.52, 0.54}, {0.92, 0.92, 1.2, 1.35}},
-    KernelRates{"stresslet", {0.28, 0.315, 0.60, 0.61}, {1.1, 1.1, 1.35, 1.4}},
-    KernelRates{"rotlet", {0.23, 0.27, 0.50, 0.51}, {0.85, 0.85, 1.0, 1.2}}};
+    KernelRates{"stokeslet", {0.245, 0.28, 0.52, 0.54}, {0.84, 1.0, 1.27, 1.16}},
+    KernelRates{"stresslet", {0.28, 0.315, 0.60, 0.61}, {1.1, 1.15, 1.33, 1.32}},
+    KernelRates{"rotlet", {0.23, 0.27, 0.50, 0.51}, {0.77, 0.86, 1.0, 1.1}}};
 
 // Near the number where both sums cost the same, or enough of them to occupy a device.
 constexpr long n_direct = default_space_is_host ? 3000 : 60000, n_fast = default_space_is_host ? 4000 : 200000;
