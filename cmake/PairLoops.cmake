@@ -7,6 +7,9 @@ set(loop_flags -O3 -ffp-contract=fast)
 if(CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper")
   list(APPEND loop_flags --host-only)
 endif()
+if(ASTERFLOW_SANITIZE)
+  list(APPEND loop_flags -fno-sanitize=undefined)  # a check around each operation on vectors: minutes a file
+endif()
 add_library(asterflow_loops OBJECT backends/fast_loops_portable.cpp)
 target_include_directories(asterflow_loops PRIVATE ${PROJECT_SOURCE_DIR}/backends/host_only ${PROJECT_SOURCE_DIR}
   ${PROJECT_SOURCE_DIR}/src)
