@@ -4,7 +4,7 @@
 // The reference has order 56 and images that follow the curvature. samples: nodes take samples of forces; projected: surface/screened_forces.hpp.
 
 #include "kernels/stokeslet.hpp"
-#include "surface/dirichlet_flow.hpp"
+#include "system/flows.hpp"
 #include "system/wall_images.hpp"
 
 #include <Kokkos_Core.hpp>
@@ -30,7 +30,7 @@ Cell make_cell(Vec3d axes, int order, double accuracy, bool is_curved) {
   ShapeSpec spec;
   spec.kind = ShapeSpec::Kind::ellipsoid;
   spec.semi_axes = axes;
-  auto flow = std::make_unique<DirichletFlow>(Surface(make_shape(spec), order), Side::interior, accuracy);
+  auto flow = std::make_unique<DirichletFlow>(plain_surface(spec, order), Side::interior, accuracy);
   ImageWall const wall(flow->surface(), Side::interior, is_curved);
   return {std::move(flow), wall, make_screened_forces(wall, accuracy)};
 }

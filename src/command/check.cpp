@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <sys/resource.h>
 
 namespace asterflow {
@@ -36,8 +35,7 @@ std::string shape_words(ShapeSpec const& shape) {
 
 // Nodes of a surface at the resolution of the run.
 int surface_nodes(ShapeSpec const& shape, int order_in_scene, double accuracy) {
-  int const order = surface_order(shape, order_in_scene, accuracy);
-  return (order + 1) * (2 * order + 2);
+  return static_cast<int>(grid_of_order(*make_shape(shape), surface_order(shape, order_in_scene, accuracy)).size());
 }
 
 // What the nodes of a surface cannot honour.
@@ -51,11 +49,11 @@ void print_limit(std::string const& name, ShapeSpec const& spec, int order_in_sc
 
 // How well the flow is known where fibers and the cortex are close.
 void print_flow_near_cortex(Scene const& scene) {
-  Surface const surface(make_shape(scene.periphery->shape),
-                        surface_order(scene.periphery->shape, scene.periphery->order, scene.run.accuracy));
+  ShapeSpec const& shape = scene.periphery->shape;
+  Surface const surface = plain_surface(shape, surface_order(shape, scene.periphery->order, scene.run.accuracy));
   if (auto const wall = wall_of_images(scene, surface))
     print_line("near cortex", fmt::format("within {:.2g} um, flow of forces as close has an error of up to about {:.0e} of their flow "
-                                          "without a cell", std::numbers::pi * surface.shape().size() / surface.order(),
+                                          "without a cell", surface.spacing(),
                                           wall->nearby_error()));
 }
 

@@ -20,27 +20,27 @@ double quadrature_digits(double accuracy) { return std::clamp(1.5 - std::log10(a
 AxisymmetricDirichlet::AxisymmetricDirichlet(Surface const& surface, Side side, int n_shell, double accuracy,
                                              Matrices matrices)
     : surface_(surface), side_(side), transform_(surface.grid().n_azimuth()), n_shell_(n_shell),
-      n_ring_(surface.grid().n_ring()), matrices_(std::move(matrices)) {
+      n_ring_(surface.grid().n_ring()), n_mode_(surface.grid().n_mode()), matrices_(std::move(matrices)) {
   if (matrices_.empty()) assemble(accuracy);
 }
 
 void AxisymmetricDirichlet::assemble(double accuracy) {
   ModalBoundary const boundary(surface_, side_, quadrature_digits(accuracy));
-  matrices_.assign(n_ring_ + (side_ == Side::exterior ? 2 : 0), {});
+  matrices_.assign(n_mode_ + (side_ == Side::exterior ? 2 : 0), {});
   assemble_shells(boundary);
-  parallel_for("AxisymmetricDirichlet::solve", n_ring_, [&](long m) {
+  parallel_for("AxisymmetricDirichlet::solve", n_mode_, [&](long m) {
     Eigen::PartialPivLU<MatrixXd> const inverse(boundary.equation(static_cast<int>(m)).transpose());
     MatrixXd& shells = matrices_[m];
     shells = inverse.solve(shells.transpose()).transpose();
     shells.topRows(3 * n_ring_).setIdentity();  // shell 0 is the surface: exactly the boundary data
     if (side_ == Side::exterior && m < 2)
-      matrices_[n_ring_ + m] = inverse.solve(boundary.load_of_density(static_cast<int>(m)).transpose()).transpose();
+      matrices_[n_mode_ + m] = inverse.solve(boundary.load_of_density(static_cast<int>(m)).transpose()).transpose();
   });
   drop_negligible_shells(accuracy);
 }
 
 void AxisymmetricDirichlet::drop_negligible_shells(double accuracy) {
-  for (int m = 0; m < n_ring_; ++m) {
+  for (int m = 0; m < n_mode_; ++m) {
     MatrixXd& shells = matrices_[m];
     int kept = n_shell_;
     while (kept > 1 && shells.middleRows((kept - 1) * 3 * n_ring_, 3 * n_ring_).lpNorm<Eigen::Infinity>() < 0.1 * accuracy)
@@ -51,7 +51,7 @@ void AxisymmetricDirichlet::drop_negligible_shells(double accuracy) {
 
 // Velocity on the shells of the density itself; solved for boundary data by the caller.
 void AxisymmetricDirichlet::assemble_shells(ModalBoundary const& boundary) {
-  for (int m = 0; m < n_ring_; ++m) matrices_[m].setZero(3 * n_shell_ * n_ring_, 3 * n_ring_);
+  for (int m = 0; m < n_mode_; ++m) matrices_[m].setZero(3 * n_shell_ * n_ring_, 3 * n_ring_);
   ModalBoundary::LoadRows const loads[2] = {boundary.load_of_density(0), boundary.load_of_density(1)};
   double const shift = boundary.surface().to_polar(boundary.surface().shape().centre()).x;
   long const n_inner = static_cast<long>(n_shell_ - 1) * n_ring_;
@@ -63,7 +63,7 @@ void AxisymmetricDirichlet::assemble_shells(ModalBoundary const& boundary) {
     double const rho = side_ == Side::interior ? scale : 1.0 / scale;  // infinity: that of the surface
     CylindricalPoint const x{rho * arm.z, rho * arm.r};
     ModalRowSet const set = is_infinity ? ModalRowSet() : boundary.rows().at({x.z + shift, x.r});
-    for (int m = 0; m < n_ring_; ++m) {
+    for (int m = 0; m < n_mode_; ++m) {
       Eigen::Matrix<double, 3, Eigen::Dynamic> velocity = Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, 3 * n_ring_);
       if (!is_infinity) velocity = set[m];
       if (side_ == Side::exterior && m < 2) {
@@ -78,15 +78,15 @@ void AxisymmetricDirichlet::assemble_shells(ModalBoundary const& boundary) {
 
 void AxisymmetricDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const {
   std::vector<RingMode> const boundary = analyse_modes(surface_, transform_, boundary_velocity);
-  modes.resize(n_ring_);
-  parallel_for("AxisymmetricDirichlet::shell_modes", n_ring_,
+  modes.resize(n_mode_);
+  parallel_for("AxisymmetricDirichlet::shell_modes", n_mode_,
                [&](long m) { multiply(matrices_[m], boundary[m], modes[m]); });
 }
 
 Eigen::Matrix<double, 6, 1> AxisymmetricDirichlet::load(ConstPoints boundary_velocity) const {
   ASTERFLOW_REQUIRE(side_ == Side::exterior);
   std::vector<RingMode> const boundary = analyse_modes(surface_, transform_, boundary_velocity);
-  return ModalBoundary::load(matrices_[n_ring_] * boundary[0], matrices_[n_ring_ + 1] * boundary[1]);
+  return ModalBoundary::load(matrices_[n_mode_] * boundary[0], matrices_[n_mode_ + 1] * boundary[1]);
 }
 
 }  // namespace asterflow

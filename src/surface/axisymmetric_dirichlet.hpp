@@ -24,7 +24,7 @@ class AxisymmetricDirichlet : public ShellOperator {
   Surface const& surface_;
   Side side_;
   AzimuthTransform transform_;
-  int n_shell_, n_ring_;
+  int n_shell_, n_ring_, n_mode_;
   // [mode] (kept shells * 3 n_ring) x (3 n_ring); then, exterior, of modes 0 and 1: load of boundary velocity, 2 x (3 n_ring)
   Matrices matrices_;
 };

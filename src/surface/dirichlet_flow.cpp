@@ -19,9 +19,9 @@ constexpr double worth_storing = 0.3;  // s, to make an operator
 
 // Shells needed along the radius. A field of degree p in rho (or s) has Chebyshev coefficients that fall like
 // exp(-k^2 / p); outside a slender shape the field is singular at s = 1 / eccentricity, inside the shape.
-int shell_count(Shape const& shape, Side side, int order, double accuracy) {
+int shell_count(Shape const& shape, Side side, int n_ring, double accuracy) {
   double const digits = std::log(10.0 / accuracy);
-  double const smooth = std::min(order + 3.0, std::sqrt((order + 2.0) * digits) * 1.1 + 3.0);
+  double const smooth = std::min(n_ring + 2.0, std::sqrt((n_ring + 1.0) * digits) * 1.1 + 3.0);
   double const aspect = shape.aspect_ratio();
   if (side == Side::interior || aspect < 1.01) return static_cast<int>(smooth);
   double const singularity = 2.0 / std::sqrt(1.0 - 1.0 / (aspect * aspect)) - 1.0;  // on the axis where [-1, 1] is s
@@ -29,16 +29,32 @@ int shell_count(Shape const& shape, Side side, int order, double accuracy) {
   return static_cast<int>(std::min(80.0, std::max(smooth, digits / rate + 3.0)));
 }
 
-// Orders that a slender shape needs over those of a sphere, and those that gain no digit yet.
-constexpr double orders_per_digit = 3.5;
-double slenderness(Shape const& shape) { return 0.6 + 0.4 * std::sqrt(std::min(shape.aspect_ratio(), 9.0)); }
-double first_order(Shape const& shape) { return 2.0 * slenderness(shape) + (shape.axisymmetric() ? 0.0 : 3.0); }
+// Half the length of a shape along its polar axis over its largest radius across, at least 1.
+double elongation(Shape const& shape) {
+  auto const distance = [&](double theta, double phi) { return norm(shape.point(theta, phi) - shape.centre()); };
+  double const half_pi = 0.5 * std::numbers::pi;
+  double const along = std::max(distance(0.0, 0.0), distance(2.0 * half_pi, 0.0));
+  return std::max(1.0, along / std::max(distance(half_pi, 0.0), distance(half_pi, half_pi)));
+}
+
+// Orders that a flat shape needs over those of a sphere (a long one has more rings instead), and those that gain no digit yet.
+constexpr double orders_per_digit = 4.0;
+double slenderness(Shape const& shape) {
+  return 0.6 + 0.4 * std::sqrt(std::clamp(shape.aspect_ratio() / elongation(shape), 1.0, 9.0));
+}
+double first_order(Shape const& shape) { return slenderness(shape) + (shape.axisymmetric() ? 0.0 : 3.0); }
+
+// Rings of a grid over those of the square one.
+double ring_stretch(Shape const& shape) {
+  double const length = elongation(shape);
+  return std::min(length, 1.2 * std::sqrt(length));
+}
 
 }  // namespace
 
 DirichletFlow::DirichletFlow(Surface surface, Side side, double accuracy)
     : surface_(std::make_unique<Surface const>(std::move(surface))), side_(side),
-      n_shell_(shell_count(surface_->shape(), side, surface_->order(), accuracy)),
+      n_shell_(shell_count(surface_->shape(), side, surface_->grid().n_ring(), accuracy)),
       table_(surface_->grid(), n_shell_, InterpolationWindow::width_for(accuracy), 2.0),
       rough_table_(surface_->grid(), n_shell_, InterpolationWindow::widths[0], 1.25) {
   ASTERFLOW_REQUIRE(surface_->grading().uniform());
@@ -129,9 +145,13 @@ std::size_t DirichletFlow::memory() const {
   return bytes;
 }
 
+SphereGrid grid_of_order(Shape const& shape, int order) {
+  return {order, static_cast<int>(std::lround((order + 1) * ring_stretch(shape)))};
+}
+
 int default_order(Shape const& shape, double accuracy) {
   double const digits = std::clamp(-std::log10(accuracy), 2.0, 12.0);
-  int const highest = shape.axisymmetric() ? 64 : 32;  // the operator of a triaxial shape takes 1 GB at 32
+  int const highest = shape.axisymmetric() ? 64 : static_cast<int>(33.0 / std::sqrt(ring_stretch(shape))) - 1;  // 1 GB if triaxial
   return std::clamp(static_cast<int>(std::lround(digits * orders_per_digit * slenderness(shape) + first_order(shape))), 6,
                     highest);
 }

@@ -67,6 +67,10 @@ class DirichletFlow {
   mutable ShellTable::Values<float> rough_values_;
 };
 
+// Grid of that order with as many rings along a long shape as resolve nearby objects at its side like azimuths do: a force at
+// 1.5 b costs exp(-0.4 p) across, exp(-p b / (2 a)) along semi-axes a > b with p + 1 rings, so about a / b times as many.
+// (Fewer beyond a / b = 1.4, where not everything is that close.)
+SphereGrid grid_of_order(Shape const& shape, int order);
 // Order whose nodes resolve the flow of objects about a third of the surface's size away to the relative accuracy.
 int default_order(Shape const& shape, double accuracy);
 // The accuracy that an order stands for in this sense.

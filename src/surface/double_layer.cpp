@@ -37,7 +37,7 @@ NodeRows DoubleLayer::rows(Vec3d target) const {
 // Rows of the modes at azimuth phi -> rows of the nodes in Cartesian components. With d = phi - phi_k, mode m
 // contributes cos(m d) where the target's and the source's component have the same parity in phi, else +-sin(m d).
 NodeRows DoubleLayer::expand(ModalRowSet const& modal, double phi) const {
-  int const n_ring = modes_->n_mode(), n = surface_.grid().n_azimuth();
+  int const n_ring = modes_->n_ring(), n = surface_.grid().n_azimuth();
   Eigen::Matrix3d const frame = surface_.grading().frame();
   Eigen::Matrix3d target_frame = Eigen::Matrix3d::Identity(), source_frame = target_frame;  // cylindrical -> polar Cartesian
   target_frame.bottomRightCorner<2, 2>() << std::cos(phi), -std::sin(phi), std::sin(phi), std::cos(phi);
@@ -46,7 +46,7 @@ NodeRows DoubleLayer::expand(ModalRowSet const& modal, double phi) const {
     double const source_phi = surface_.grid().azimuth(k), d = phi - source_phi;
     source_frame.bottomRightCorner<2, 2>() << std::cos(source_phi), -std::sin(source_phi), std::sin(source_phi), std::cos(source_phi);
     NodeRows sum = NodeRows::Zero(3, 3 * n_ring);
-    for (int m = 0; m < n_ring; ++m) {
+    for (int m = 0; m < modes_->n_mode(); ++m) {
       double const weight = (m == 0 ? 1.0 : 2.0) / n, c = weight * std::cos(m * d), s = weight * std::sin(m * d);
       sum.topLeftCorner(2, 2 * n_ring) += c * modal[m].topLeftCorner(2, 2 * n_ring);
       sum.topRightCorner(2, n_ring) += s * modal[m].topRightCorner(2, n_ring);

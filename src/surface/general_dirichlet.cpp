@@ -108,11 +108,11 @@ PointArray GeneralDirichlet::to_polar(ConstPoints field) const {
 }
 
 void GeneralDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const {
-  int const n_ring = surface_.grid().n_ring();
+  int const n_ring = surface_.grid().n_ring(), n_mode = surface_.grid().n_mode();
   PointArray const data = to_polar(boundary_velocity);
   std::array<VectorXd, MirrorClasses::count> coefficients;
   for (int s = 0; s < MirrorClasses::count; ++s) coefficients[s] = classes_.analyse(s, data);
-  modes.resize(n_ring);
+  modes.resize(n_mode);
   for (auto& mode : modes) mode.resize(3 * n_ring * n_shell_, 2);
   parallel_for("GeneralDirichlet::shell_modes", n_shell_, [&](long k) {
     PointArray shell(boundary_velocity.begin(), boundary_velocity.end());  // shell 0: the data
@@ -126,7 +126,7 @@ void GeneralDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<Sh
       for (Vec3d& u : shell) u = surface_.from_polar(u);
     }
     std::vector<RingMode> const rings = analyse_modes(surface_, transform_, shell);
-    for (int m = 0; m < n_ring; ++m) modes[m].middleRows(3 * n_ring * k, 3 * n_ring) = rings[m];
+    for (int m = 0; m < n_mode; ++m) modes[m].middleRows(3 * n_ring * k, 3 * n_ring) = rings[m];
   });
 }
 

@@ -41,14 +41,14 @@ int mode_of_column(int column, int order) { return column <= order ? column : co
 }  // namespace
 
 GeneralRows::GeneralRows(Surface const& surface, double digits)
-    : surface_(surface), order_(surface.order()), digits_(digits) {
+    : surface_(surface), order_(surface.order()), n_ring_(surface.grid().n_ring()), digits_(digits) {
   auto const& grid = surface.grid();
-  int const n = grid.n_ring(), n_azimuth = grid.n_azimuth();
-  nodes_to_legendre_.resize(n, n);
-  std::vector<double> values(n);
-  for (int j = 0; j < n; ++j) {
-    legendre_polynomials(std::cos(grid.polar_angles()[j]), order_, values.data());
-    for (int l = 0; l < n; ++l) nodes_to_legendre_(l, j) = grid.ring_weights()[j] * (l + 0.5) * values[l];
+  int const n_azimuth = grid.n_azimuth();
+  nodes_to_legendre_.resize(n_ring_, n_ring_);
+  std::vector<double> values(n_ring_);
+  for (int j = 0; j < n_ring_; ++j) {
+    legendre_polynomials(std::cos(grid.polar_angles()[j]), n_ring_ - 1, values.data());
+    for (int l = 0; l < n_ring_; ++l) nodes_to_legendre_(l, j) = grid.ring_weights()[j] * (l + 0.5) * values[l];
   }
   std::vector<double> phi;
   for (int k = 0; k < n_azimuth; ++k) phi.push_back(grid.azimuth(k));
@@ -121,10 +121,9 @@ void GeneralRows::integrate_ring(Vec3d target, Grading::PolarAngle angle, double
 
 NodeRows GeneralRows::integrate(Vec3d target, Singularity const& near) const {
   int const n_column = 2 * order_ + 1;
-  GradedRuleOptions const options{digits_, order_ + 2.0};
   double const stretch = norm(surface_.patch(near.t, near.phi).tangent_t);
   std::vector<RulePoint> meridian;
-  append_graded_rule(0.0, near.t, pi, near.distance / stretch, options, meridian);
+  append_graded_rule(0.0, near.t, pi, near.distance / stretch, {digits_, n_ring_ + 1.0}, meridian);
 
   MatrixXd modal(n_entry * n_column, meridian.size());
   std::vector<double> t;
@@ -135,7 +134,7 @@ NodeRows GeneralRows::integrate(Vec3d target, Singularity const& near) const {
     double const centre = closest_azimuth(target, angle, near.phi);
     SurfacePatch const closest = surface_.patch(angle, centre);
     double const speed = norm(closest.tangent_phi), gap = norm(target - closest.position);
-    periodic_rule(centre, gap > 10.0 * speed ? 10.0 : gap / speed, options, ring.rule);
+    periodic_rule(centre, gap > 10.0 * speed ? 10.0 : gap / speed, {digits_, order_ + 2.0}, ring.rule);
     integrate_ring(target, angle, meridian[s].weight, ring, Eigen::Map<MatrixXd>(modal.col(s).data(), n_column, n_entry));
   }
   NodeRows rows = to_nodes(t, modal.transpose());
@@ -147,22 +146,21 @@ NodeRows GeneralRows::integrate(Vec3d target, Singularity const& near) const {
 }
 
 void GeneralRows::ring_polynomials(std::vector<double> const& t, MatrixXd& even, MatrixXd& odd) const {
-  int const n = order_ + 1;
-  MatrixXd legendre(n, t.size());
-  for (std::size_t s = 0; s < t.size(); ++s) legendre_polynomials(std::cos(t[s]), order_, legendre.col(s).data());
+  MatrixXd legendre(n_ring_, t.size());
+  for (std::size_t s = 0; s < t.size(); ++s) legendre_polynomials(std::cos(t[s]), n_ring_ - 1, legendre.col(s).data());
   even = legendre.transpose() * nodes_to_legendre_;
   odd = even;
   for (std::size_t s = 0; s < t.size(); ++s)
-    for (int j = 0; j < n; ++j) odd(s, j) *= std::sin(t[s]) / std::sin(surface_.grid().polar_angles()[j]);
+    for (int j = 0; j < n_ring_; ++j) odd(s, j) *= std::sin(t[s]) / std::sin(surface_.grid().polar_angles()[j]);
 }
 
 NodeRows GeneralRows::to_nodes(std::vector<double> const& t, MatrixXd const& modal) const {
-  int const n_ring = order_ + 1, n_azimuth = 2 * n_ring, n_column = 2 * order_ + 1;
+  int const n_azimuth = surface_.grid().n_azimuth(), n_column = 2 * order_ + 1;
   MatrixXd even, odd;
   ring_polynomials(t, even, odd);
   MatrixXd const by_even = even.transpose() * modal, by_odd = odd.transpose() * modal;  // [ring, (entry, column)]
-  NodeRows rows(3, 3 * n_ring * n_azimuth);
-  MatrixXd coefficients(n_ring, n_column);
+  NodeRows rows(3, 3 * n_ring_ * n_azimuth);
+  MatrixXd coefficients(n_ring_, n_column);
   for (int e = 0; e < n_entry; ++e) {
     for (int c = 0; c < n_column; ++c)
       coefficients.col(c) = (mode_of_column(c, order_) % 2 ? by_odd : by_even).col(e * n_column + c);
@@ -170,21 +168,21 @@ NodeRows GeneralRows::to_nodes(std::vector<double> const& t, MatrixXd const& mod
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k)
         if (entry_of[i][k] == e)
-          for (int j = 0; j < n_ring; ++j)
+          for (int j = 0; j < n_ring_; ++j)
             for (int a = 0; a < n_azimuth; ++a) rows(i, 3 * (j * n_azimuth + a) + k) = values(j, a);
   }
   return rows;
 }
 
 Eigen::VectorXd GeneralRows::cardinal_functions(double t, double phi) const {
-  int const n_ring = order_ + 1, n_azimuth = 2 * n_ring, n_column = 2 * order_ + 1;
+  int const n_azimuth = surface_.grid().n_azimuth(), n_column = 2 * order_ + 1;
   MatrixXd even, odd;
   MatrixXd const basis = trigonometric({phi}, order_);
   ring_polynomials({t}, even, odd);
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(n_ring * n_azimuth);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(n_ring_ * n_azimuth);
   for (int c = 0; c < n_column; ++c) {
     auto const& ring = mode_of_column(c, order_) % 2 ? odd : even;
-    for (int j = 0; j < n_ring; ++j)
+    for (int j = 0; j < n_ring_; ++j)
       for (int a = 0; a < n_azimuth; ++a) values[j * n_azimuth + a] += ring(0, j) * basis(0, c) * modes_to_nodes_(c, a);
   }
   return values;

@@ -35,9 +35,9 @@ class GeneralRows {
   void ring_polynomials(std::vector<double> const& t, Eigen::MatrixXd& even, Eigen::MatrixXd& odd) const;
 
   Surface const& surface_;
-  int order_;
+  int order_, n_ring_;
   double digits_;
-  Eigen::MatrixXd nodes_to_legendre_;  // (p + 1) x (p + 1)
+  Eigen::MatrixXd nodes_to_legendre_;  // n_ring x n_ring
   Eigen::MatrixXd modes_to_nodes_;     // (2 p + 1) x (2 p + 2): 1, cos phi ... cos p phi, sin phi ... sin p phi
 };
 

@@ -11,7 +11,11 @@ namespace {
 
 double shortest_distance(Shape const& shape) { return shape.size() / shape.aspect_ratio(); }
 
-double local_spacing(Surface const& wall, LocalGeometry const& at) { return std::numbers::pi / wall.order() * at.stretch; }
+// Mean of the two directions.
+double local_spacing(Surface const& wall, LocalGeometry const& at) {
+  return std::numbers::pi * at.stretch / std::sqrt(double(wall.order()) * (wall.grid().n_ring() - 1));
+}
+
 double bend(LocalGeometry const& at) { return std::hypot(at.curvature[0], at.curvature[1]); }
 
 double inverse_fourth(double x) { return 1.0 / (x * x * x * x); }
@@ -26,7 +30,7 @@ double curved_reach(Surface const& wall, LocalGeometry const& at) {
 ImageWall::ImageWall(Surface const& wall, Side side, bool wants_curvature)
     : surface_(&wall), is_body_(side == Side::exterior),
       has_curvature_(wants_curvature && !is_body_ && !normals_enter_again()), largest_reach_(0.0) {
-  double const spacing = std::numbers::pi * wall.shape().size() / wall.order();
+  double const spacing = wall.spacing();
   if (is_body_) {
     largest_reach_ = std::min(spacing, 0.6 * shortest_distance(wall.shape()));
     return;

@@ -30,8 +30,8 @@ Eigen::Matrix<double, 3, 2> modal_velocity_of_load(int m, CylindricalPoint x) {
 ModalBoundary::ModalBoundary(Surface const& surface, Side side, double digits)
     : surface_(surface), side_(side), rows_(surface, digits), transform_(surface.grid().n_azimuth()) {
   ASTERFLOW_REQUIRE(surface.axisymmetric());
-  std::vector<ModalRowSet> rings(n_mode());
-  parallel_for("ModalBoundary::rings", n_mode(),
+  std::vector<ModalRowSet> rings(n_ring());
+  parallel_for("ModalBoundary::rings", n_ring(),
                [&](long j) { rings[j] = rows_.on_surface(surface_.grid().polar_angles()[j]); });
   for (int m = 0; m < n_mode(); ++m) equations_.push_back(assemble(m, rings));
 }
@@ -44,7 +44,7 @@ CylindricalPoint ModalBoundary::ring(int j) const {
 
 // Rows of force and torque in the density of mode m, see the header.
 ModalBoundary::LoadRows ModalBoundary::load_of_density(int m) const {
-  int const n = n_mode();
+  int const n = n_ring();
   LoadRows rows = LoadRows::Zero(2, 3 * n);
   double const factor = -2.0 / std::sqrt(surface_.area() / (4.0 * pi));
   for (int j = 0; j < n; ++j) {
@@ -64,7 +64,7 @@ ModalBoundary::LoadRows ModalBoundary::load_of_density(int m) const {
 }
 
 MatrixXd ModalBoundary::assemble(int m, std::vector<ModalRowSet> const& rings) const {
-  int const n_ring = n_mode();
+  int const n_ring = this->n_ring();
   MatrixXd a(3 * n_ring, 3 * n_ring);
   for (int c = 0; c < 3; ++c)
     for (int j = 0; j < n_ring; ++j) a.row(c * n_ring + j) = rings[j][m].row(c);
@@ -95,7 +95,7 @@ std::vector<RingMode> analyse_modes(Surface const& surface, AzimuthTransform con
   ASTERFLOW_REQUIRE(field.size() == surface.size());
   auto const& grid = surface.grid();
   int const n = grid.n_azimuth();
-  std::vector<RingMode> modes(grid.n_ring(), RingMode(3 * grid.n_ring(), 2));
+  std::vector<RingMode> modes(grid.n_mode(), RingMode(3 * grid.n_ring(), 2));
   std::vector<double> values(3 * n);
   std::vector<std::complex<double>> coefficients(n / 2 + 1);
   for (int j = 0; j < grid.n_ring(); ++j) {
@@ -108,7 +108,7 @@ std::vector<RingMode> analyse_modes(Surface const& surface, AzimuthTransform con
     }
     for (int c = 0; c < 3; ++c) {
       transform.analyse(values.data() + c * n, coefficients.data());
-      for (int m = 0; m < grid.n_ring(); ++m) {
+      for (int m = 0; m < grid.n_mode(); ++m) {
         auto const f = c < 2 ? coefficients[m] : coefficients[m] * std::complex(0.0, -1.0);
         modes[m].row(c * grid.n_ring() + j) << f.real(), f.imag();
       }
@@ -127,7 +127,7 @@ void add_synthesis(Surface const& surface, AzimuthTransform const& transform, st
   for (int j = 0; j < n_ring; ++j) {
     for (int c = 0; c < 3; ++c) {
       coefficients.back() = 0.0;
-      for (int m = 0; m < n_ring; ++m) {
+      for (int m = 0; m < grid.n_mode(); ++m) {
         std::complex<double> const f(modes[m](c * n_ring + j, 0), modes[m](c * n_ring + j, 1));
         coefficients[m] = c < 2 ? f : f * std::complex(0.0, 1.0);
       }

@@ -34,7 +34,8 @@ class ModalBoundary {
   Surface const& surface() const { return surface_; }
   Side side() const { return side_; }
   ModalRows const& rows() const { return rows_; }
-  int n_mode() const { return surface_.grid().n_ring(); }
+  int n_mode() const { return surface_.grid().n_mode(); }
+  int n_ring() const { return surface_.grid().n_ring(); }
 
   std::vector<Mode> analyse(ConstPoints field) const { return analyse_modes(surface_, transform_, field); }
   void synthesise(std::vector<Mode> const& modes, Points field) const;   // overwrites

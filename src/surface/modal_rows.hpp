@@ -17,7 +17,7 @@ struct CylindricalPoint {
   double z, r;  // um, from the origin of the shape's frame: along e_1 of the surface's grading, and away from that axis
 };
 
-// rows[m]: 3 x 3 (p + 1), columns: q1 of all rings, q2 of all rings, q3 of all rings. m = 0 ... p.
+// rows[m]: 3 x 3 n_ring, columns: q1 of all rings, q2 of all rings, q3 of all rings. m = 0 ... p.
 using ModalRowSet = std::vector<Eigen::Matrix<double, 3, Eigen::Dynamic>>;
 
 class ModalRows {
@@ -39,10 +39,10 @@ class ModalRows {
   void interpolation_values(double t, double* even, double* odd) const;  // cardinal functions of all rings
 
   Surface const& surface_;
-  int order_;
+  int n_mode_, n_ring_;
   double digits_;
   std::vector<double> sin_t_;      // [n_ring]
-  Eigen::MatrixXd nodes_to_legendre_;  // (p + 1) x (p + 1): coefficient of P_l from ring values
+  Eigen::MatrixXd nodes_to_legendre_;  // n_ring x n_ring: coefficient of P_l from ring values
 };
 
 }  // namespace asterflow

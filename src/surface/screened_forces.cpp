@@ -48,14 +48,15 @@ struct ScreenedForces::Place {
 };
 
 ScreenedForces::ScreenedForces(ImageWall const& wall, double accuracy)
-    : wall_(wall), surface_(wall.surface()), n_ring_(surface_.grid().n_ring()), places_(surface_.order() + extra_order),
+    : wall_(wall), surface_(wall.surface()), n_ring_(surface_.grid().n_ring()), n_mode_(surface_.grid().n_mode()),
+      places_(surface_.order() + extra_order, n_ring_ + extra_order),
       table_(places_, n_shell, InterpolationWindow::width_for(accuracy), 2.0), transform_(surface_.grid().n_azimuth()) {
   ASTERFLOW_REQUIRE(surface_.axisymmetric() && surface_.grading().uniform() && !wall.is_body());
-  MatrixXd legendre(n_ring_, n_ring_ + 1);
-  basis_at_rings_.assign(n_ring_ + 1, MatrixXd(n_ring_, n_ring_));
+  MatrixXd legendre(n_ring_, n_mode_ + 1);
+  basis_at_rings_.assign(n_mode_ + 1, MatrixXd(n_ring_, n_ring_));
   for (int j = 0; j < n_ring_; ++j) {
     fill_legendre(surface_.grid().polar_angles()[j], legendre);
-    for (int m = 0; m <= n_ring_; ++m) basis_at_rings_[m].row(j) = legendre.col(m).transpose();
+    for (int m = 0; m <= n_mode_; ++m) basis_at_rings_[m].row(j) = legendre.col(m).transpose();
   }
   assemble(accuracy);
 }
@@ -112,7 +113,7 @@ void ScreenedForces::ring_velocities(Place const& place, Vec3d ring, double digi
                                      RingVelocities& u) const {
   double const gap = std::hypot(ring.x - place.position.x, ring.y - place.position.y), product = ring.y * place.position.y;
   double const width = product > 0.0 ? 2.0 * std::asinh(0.5 * gap / std::sqrt(product)) : 10.0;
-  half_period_rule(std::min(10.0, width), {digits, n_ring_ + 1.0}, azimuth);
+  half_period_rule(std::min(10.0, width), {digits, n_mode_ + 1.0}, azimuth);
   PointArray points;
   for (auto const& point : azimuth) points.push_back({ring.x, ring.y * std::cos(point.x), ring.y * std::sin(point.x)});
   auto const n = static_cast<long>(points.size());
@@ -143,20 +144,20 @@ ScreenedForces::ModalColumns ScreenedForces::project(Place const& place, double 
   double const speed = norm(surface_.patch(place.t, 0.0).tangent_t);
   append_graded_rule(0.0, place.t, pi, place.distance / speed, {digits, n_ring_ + 1.0}, meridian);
   auto const n_t = static_cast<Eigen::Index>(meridian.size());
-  std::vector<MatrixXd> modes(n_ring_, MatrixXd(n_t, 9)), basis(n_ring_ + 1, MatrixXd(n_ring_, n_t));
-  MatrixXd legendre(n_ring_, n_ring_ + 1);
+  std::vector<MatrixXd> modes(n_mode_, MatrixXd(n_t, 9)), basis(n_mode_ + 1, MatrixXd(n_ring_, n_t));
+  MatrixXd legendre(n_ring_, n_mode_ + 1);
   RingVelocities u;
-  RingModes ring(n_ring_, 9);
+  RingModes ring(n_mode_, 9);
   for (Eigen::Index s = 0; s < n_t; ++s) {
     double const t = meridian[s].x;
     ring_velocities(place, surface_.to_polar(surface_.patch(t, 0.0).position), digits, azimuth, u);
     analyse_ring(azimuth, u, ring);
-    for (int m = 0; m < n_ring_; ++m) modes[m].row(s) = meridian[s].weight * std::sin(t) * ring.row(m);
+    for (int m = 0; m < n_mode_; ++m) modes[m].row(s) = meridian[s].weight * std::sin(t) * ring.row(m);
     fill_legendre(t, legendre);
-    for (int m = 0; m <= n_ring_; ++m) basis[m].col(s) = legendre.col(m);
+    for (int m = 0; m <= n_mode_; ++m) basis[m].col(s) = legendre.col(m);
   }
-  ModalColumns columns(n_ring_, Eigen::Matrix<double, Eigen::Dynamic, 3>(3 * n_ring_, 3));
-  for (int m = 0; m < n_ring_; ++m) {
+  ModalColumns columns(n_mode_, Eigen::Matrix<double, Eigen::Dynamic, 3>(3 * n_ring_, 3));
+  for (int m = 0; m < n_mode_; ++m) {
     auto const at_rings = [&](int order, MatrixXd const& values) -> MatrixXd {
       return basis_at_rings_[order] * (basis[order] * values);
     };
@@ -170,11 +171,11 @@ ScreenedForces::ModalColumns ScreenedForces::project(Place const& place, double 
 void ScreenedForces::assemble(double accuracy) {
   double const digits = std::clamp(1.5 - std::log10(accuracy), 4.0, 13.0);
   int const n_place = places_.n_ring();
-  matrices_.assign(n_ring_, MatrixXd(3 * n_ring_, 3 * n_place * n_shell));
+  matrices_.assign(n_mode_, MatrixXd(3 * n_ring_, 3 * n_place * n_shell));
   parallel_for("ScreenedForces::assemble", static_cast<long>(n_shell) * n_place, [&](long i) {
     int const shell = static_cast<int>(i / n_place), ring = static_cast<int>(i % n_place);
     ModalColumns const columns = project(place(ring, shell), digits);
-    for (int m = 0; m < n_ring_; ++m)
+    for (int m = 0; m < n_mode_; ++m)
       for (int c = 0; c < 3; ++c) matrices_[m].col((shell * 3 + c) * n_place + ring) = columns[m].col(c);
   });
   // Modes are left out on shells where they are below the accuracy of the flow at the size of the wall.
@@ -188,13 +189,13 @@ void ScreenedForces::assemble(double accuracy) {
 
 void ScreenedForces::add_velocity(std::vector<TablePoint> const& points, ConstPoints forces, Points velocity) const {
   if (points.empty()) return;
-  collected_.resize(places_.n_ring());
-  modes_.resize(n_ring_);
-  for (int m = 0; m < places_.n_ring(); ++m) collected_[m].resize(m < n_ring_ ? matrices_[m].cols() : 0, 2);
+  collected_.resize(places_.n_mode());
+  modes_.resize(n_mode_);
+  for (int m = 0; m < places_.n_mode(); ++m) collected_[m].resize(m < n_mode_ ? matrices_[m].cols() : 0, 2);
   PointArray in_polar(forces.size());
   std::ranges::transform(forces, in_polar.begin(), [&](Vec3d f) { return surface_.to_polar(f); });
   table_.collect(points, in_polar, collected_, work_);
-  parallel_for("ScreenedForces::modes", n_ring_, [&](long m) { multiply(matrices_[m], collected_[m], modes_[m]); });
+  parallel_for("ScreenedForces::modes", n_mode_, [&](long m) { multiply(matrices_[m], collected_[m], modes_[m]); });
   add_synthesis(surface_, transform_, modes_, velocity);
 }
 

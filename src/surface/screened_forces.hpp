@@ -41,7 +41,7 @@ class ScreenedForces {
 
   ImageWall wall_;
   Surface const& surface_;
-  int n_ring_;
+  int n_ring_, n_mode_;
   SphereGrid places_;  // feet of forces
   ShellTable table_;
   AzimuthTransform transform_;

@@ -49,16 +49,16 @@ double shell_scale(int k, int n_shell) {
 }
 
 ShellTable::ShellTable(SphereGrid const& grid, int n_shell, int window_width, double oversampling)
-    : n_ring_(grid.n_ring()), n_shell_(n_shell), window_(window_width, oversampling),
+    : n_ring_(grid.n_ring()), n_mode_(grid.n_mode()), n_shell_(n_shell), window_(window_width, oversampling),
       n_psi_(cells(oversampling, n_shell)), n_theta_(cells(oversampling, n_ring_ + 1)),
-      n_phi_(even_fft_size(2 * cells(oversampling, n_ring_))), margin_(window_width / 2), row_(n_phi_ + 2 * margin_ + 1),
+      n_phi_(even_fft_size(2 * cells(oversampling, n_mode_))), margin_(window_width / 2), row_(n_phi_ + 2 * margin_ + 1),
       transform_(n_phi_) {
   ASTERFLOW_REQUIRE(n_shell >= 2);
   std::vector<double> psi;
   for (int k = 0; k < n_shell; ++k) psi.push_back(pi * k / (n_shell - 1));
   psi_up_ = upsampling(psi, false, n_psi_, margin_, window_);
   for (bool const odd : {false, true}) theta_up_[odd] = upsampling(grid.polar_angles(), odd, n_theta_, margin_, window_);
-  for (int m = 0; m < n_ring_; ++m) phi_correction_.push_back(1.0 / window_.transform(static_cast<double>(m) / n_phi_));
+  for (int m = 0; m < n_mode_; ++m) phi_correction_.push_back(1.0 / window_.transform(static_cast<double>(m) / n_phi_));
 }
 
 TablePoint ShellTable::locate(double psi, Vec3d d) {
@@ -69,16 +69,16 @@ TablePoint ShellTable::locate(double psi, Vec3d d) {
 
 std::size_t ShellTable::memory() const {
   auto const cells = static_cast<std::size_t>(psi_up_.rows() * theta_up_[0].rows());
-  return sizeof(double) * cells * (3 * row_ + 6 * n_ring_);
+  return sizeof(double) * cells * (3 * row_ + 6 * n_mode_);
 }
 
 // Upsampling is a tensor product: theta and psi by small matrices mode by mode, phi by a Fourier transform.
 template <class Real>
 void ShellTable::fill(std::vector<ShellMode> const& modes, Values<Real>& values) const {
-  ASTERFLOW_REQUIRE(static_cast<int>(modes.size()) == n_ring_);
+  ASTERFLOW_REQUIRE(static_cast<int>(modes.size()) == n_mode_);
   values.velocity.resize(static_cast<std::size_t>(psi_up_.rows() * theta_up_[0].rows()) * 3 * row_ + max_lanes);
   values.meridian.resize(modes.size());
-  parallel_for("ShellTable::fill_meridian", n_ring_,
+  parallel_for("ShellTable::fill_meridian", n_mode_,
                [&](long m) { fill_meridian(static_cast<int>(m), modes[m], values.meridian[m]); });
   parallel_for("ShellTable::fill_azimuth", psi_up_.rows(), [&](long i) { fill_azimuth(i, values); });
 }
@@ -106,7 +106,7 @@ void ShellTable::fill_azimuth(long i_psi, Values<Real>& values) const {
   std::vector<std::complex<double>> spectrum(n_coefficient);           // overwritten by the transform
   std::vector<double> circle(n_phi_);
   for (int c = 0; c < 3; ++c) {
-    for (int m = 0; m < n_ring_; ++m) {
+    for (int m = 0; m < n_mode_; ++m) {
       double const* const re = values.meridian[m].col(c * n_psi + i_psi).data();
       double const* const im = values.meridian[m].col((3 + c) * n_psi + i_psi).data();
       for (Eigen::Index j = 0; j < n_theta; ++j)

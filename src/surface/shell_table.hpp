@@ -77,7 +77,7 @@ class ShellTable {
   template <int width, class Real>
   void interpolate_with(Values<Real> const& values, TablePoint const& point, double velocity[3]) const;
 
-  int n_ring_, n_shell_;
+  int n_ring_, n_mode_, n_shell_;
   InterpolationWindow window_;
   int n_psi_, n_theta_, n_phi_;         // cells along [0, pi], [0, pi], [0, 2 pi)
   int margin_, row_;                    // ghost nodes on each side; nodes of a circle of phi with its ghosts

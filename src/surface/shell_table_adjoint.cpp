@@ -11,12 +11,12 @@ using Eigen::MatrixXd;
 
 void ShellTable::collect(std::vector<TablePoint> const& points, ConstPoints forces, std::vector<ShellMode>& modes,
                          Collection& work) const {
-  ASTERFLOW_REQUIRE(points.size() == forces.size() && static_cast<int>(modes.size()) == n_ring_);
+  ASTERFLOW_REQUIRE(points.size() == forces.size() && static_cast<int>(modes.size()) == n_mode_);
   weigh_forces(points, forces, work);
   work.meridian.resize(modes.size());
   for (auto& fine : work.meridian) fine.resize(theta_up_[0].rows(), 6 * psi_up_.rows());
   parallel_for("ShellTable::collect_azimuth", psi_up_.rows(), [&](long i) { collect_azimuth(i, work); });
-  parallel_for("ShellTable::collect_meridian", n_ring_,
+  parallel_for("ShellTable::collect_meridian", n_mode_,
                [&](long m) { collect_meridian(static_cast<int>(m), work.meridian[m], modes[m]); });
 }
 
@@ -66,7 +66,7 @@ void ShellTable::collect_azimuth(long i_psi, Collection& work) const {
       for (int g = 0; g < margin_; ++g) circle[n_phi_ - margin_ + g] += row[3 * g];
       for (int g = margin_ + n_phi_; g < row_; ++g) circle[g - margin_ - n_phi_] += row[3 * g];
       transform_.analyse(circle.data(), spectrum.data());
-      for (int m = 0; m < n_ring_; ++m) {
+      for (int m = 0; m < n_mode_; ++m) {
         auto const f = c < 2 ? spectrum[m] : spectrum[m] * std::complex(0.0, -1.0);
         work.meridian[m](j, c * n_psi + i_psi) = f.real();
         work.meridian[m](j, (3 + c) * n_psi + i_psi) = f.imag();

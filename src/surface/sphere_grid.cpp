@@ -8,14 +8,12 @@
 
 namespace asterflow {
 
-SphereGrid::SphereGrid(int order) : order_(order) {
-  ASTERFLOW_REQUIRE(order >= 1);
-  auto const& rule = gauss_legendre(order + 1);
-  theta_.resize(order + 1);
-  weights_.resize(order + 1);
-  for (int j = 0; j <= order; ++j) {
-    theta_[j] = std::acos(rule.nodes[order - j]);
-    weights_[j] = rule.weights[order - j];
+SphereGrid::SphereGrid(int order, int n_ring) : order_(order), theta_(n_ring), weights_(n_ring) {
+  ASTERFLOW_REQUIRE(order >= 1 && n_ring > order);
+  auto const& rule = gauss_legendre(n_ring);
+  for (int j = 0; j < n_ring; ++j) {
+    theta_[j] = std::acos(rule.nodes[n_ring - 1 - j]);
+    weights_[j] = rule.weights[n_ring - 1 - j];
   }
 }
 

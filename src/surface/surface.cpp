@@ -18,11 +18,11 @@ bool is_axisymmetric(Shape const& shape, Grading const& grading) {
 
 }  // namespace
 
-Surface::Surface(std::shared_ptr<Shape const> shape, int order)
-    : Surface(shape, order, Grading(axis_frame(shape->polar_axis()))) {}
+Surface::Surface(std::shared_ptr<Shape const> shape, SphereGrid const& grid)
+    : Surface(shape, grid, Grading(axis_frame(shape->polar_axis()))) {}
 
-Surface::Surface(std::shared_ptr<Shape const> shape, int order, Grading const& grading)
-    : shape_(std::move(shape)), grid_(order), grading_(grading), axisymmetric_(is_axisymmetric(*shape_, grading)) {
+Surface::Surface(std::shared_ptr<Shape const> shape, SphereGrid const& grid, Grading const& grading)
+    : shape_(std::move(shape)), grid_(grid), grading_(grading), axisymmetric_(is_axisymmetric(*shape_, grading)) {
   for (int j = 0; j < grid_.n_ring(); ++j) {
     double const t = grid_.polar_angles()[j];
     double const cell = grid_.ring_weights()[j] / std::sin(t) * 2.0 * std::numbers::pi / grid_.n_azimuth();
@@ -37,6 +37,8 @@ Surface::Surface(std::shared_ptr<Shape const> shape, int order, Grading const& g
     }
   }
 }
+
+double Surface::spacing() const { return std::numbers::pi * shape_->size() / (grid_.n_ring() - 1); }
 
 SurfacePatch Surface::patch(Grading::PolarAngle ring, double phi) const {
   double const c = std::cos(ring.theta), s = std::sin(ring.theta), cp = std::cos(phi), sp = std::sin(phi);

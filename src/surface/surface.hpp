@@ -1,5 +1,5 @@
 #pragma once
-// A closed surface as quadrature nodes: a shape sampled on the Gauss-Legendre x trapezoid grid of order p, whose angles
+// A closed surface as quadrature nodes: a shape sampled on a Gauss-Legendre x trapezoid grid (sphere_grid.hpp), whose angles
 // (t, phi) parametrise the shape through a grading of the sphere. Spectrally accurate for smooth integrands:
 // int f dS = sum_i weights[i] f(nodes[i]). Coordinates are the shape's own frame.
 
@@ -26,14 +26,16 @@ struct ClosestAngles {
 
 class Surface {
  public:
-  Surface(std::shared_ptr<Shape const> shape, int order);  // plain, about the shape's polar axis
-  Surface(std::shared_ptr<Shape const> shape, int order, Grading const& grading);
+  // Without a grading: plain, about the shape's polar axis.
+  Surface(std::shared_ptr<Shape const> shape, SphereGrid const& grid);
+  Surface(std::shared_ptr<Shape const> shape, SphereGrid const& grid, Grading const& grading);
 
   Shape const& shape() const { return *shape_; }
   SphereGrid const& grid() const { return grid_; }
   Grading const& grading() const { return grading_; }
   int order() const { return grid_.order(); }
   std::size_t size() const { return grid_.size(); }
+  double spacing() const;  // um, of the nodes of a plain grid, where they are farthest apart
 
   ConstPoints nodes() const { return nodes_; }      // [size] um
   ConstPoints normals() const { return normals_; }  // [size] outward unit normals

@@ -14,7 +14,7 @@ class FlowLibrary {
     int const order = surface_order(spec, order_in_scene, accuracy_);
     for (auto const& made : flows_)
       if (made.shape == spec && made.flow->surface().order() == order && made.flow->side() == side) return made.flow;
-    auto flow = std::make_shared<DirichletFlow const>(Surface(make_shape(spec), order), side, accuracy_);
+    auto flow = std::make_shared<DirichletFlow const>(plain_surface(spec, order), side, accuracy_);
     flows_.push_back({spec, flow});
     return flow;
   }
@@ -29,6 +29,11 @@ class FlowLibrary {
 };
 
 }  // namespace
+
+Surface plain_surface(ShapeSpec const& spec, int order) {
+  auto const shape = make_shape(spec);
+  return Surface(shape, grid_of_order(*shape, order));
+}
 
 int surface_order(ShapeSpec const& shape, int order_in_scene, double accuracy) {
   return order_in_scene > 0 ? order_in_scene : default_order(*make_shape(shape), accuracy);

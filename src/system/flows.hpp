@@ -26,6 +26,9 @@ std::unique_ptr<Radiation> make_radiation(Scene const& scene, SceneFlows const& 
 // Spectral order of a surface: the scene's, else from the accuracy of the run.
 int surface_order(ShapeSpec const& shape, int order_in_scene, double accuracy);
 
+// With its grid in a run.
+Surface plain_surface(ShapeSpec const& shape, int order);
+
 // Resistance of a body alone in unbounded fluid, force and torque about its centre.
 Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double viscosity);
 

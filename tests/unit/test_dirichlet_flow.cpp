@@ -43,9 +43,10 @@ Vec3d direction(int i) {
 }
 
 // Largest error over 60 targets at each scale, relative to the largest velocity at that scale.
-double field_error(Vec3d semi_axes, Side side, int order, double accuracy, double source_scale) {
-  DirichletFlow const flow(Surface(ellipsoid(semi_axes), order), side, accuracy);
-  PointForce const source{source_scale * scaled(semi_axes, normalized(Vec3d{0.3, 0.8, 0.5})), {0.4, -0.7, 0.9}};
+double field_error(Vec3d semi_axes, Side side, SphereGrid const& grid, double accuracy, double source_scale,
+                   Vec3d source_direction = {0.3, 0.8, 0.5}) {
+  DirichletFlow const flow(Surface(ellipsoid(semi_axes), grid), side, accuracy);
+  PointForce const source{source_scale * scaled(semi_axes, normalized(source_direction)), {0.4, -0.7, 0.9}};
   PointArray const w = source.velocity(flow.surface().nodes());
   double worst = 0.0;
   for (double const depth : {0.0, 1e-12, 1e-6, 1e-4, 1e-3, 1e-2, 0.1, 0.5, 0.9, 0.999, 1.0}) {
@@ -82,6 +83,23 @@ TEST(DirichletFlow, converges_spectrally_with_the_order) {
   double const coarse = field_error({25, 15, 15}, Side::interior, 8, 1e-10, 2.5);
   double const fine = field_error({25, 15, 15}, Side::interior, 24, 1e-10, 2.5);
   EXPECT_LT(fine, coarse * 1e-5);  // the series falls by about 2.5 per order
+}
+
+TEST(DirichletFlow, more_rings_resolve_a_force_at_the_side_of_a_long_shape) {
+  struct Case {
+    Vec3d semi_axes;
+    Side side;
+    double source_scale;
+    Vec3d at_the_side;
+  };
+  for (auto const& [axes, side, scale, source] : {Case{{25, 15, 15}, Side::interior, 1.5, {0.0, 0.8, 0.5}},
+                                                  Case{{1, 1, 1.7}, Side::exterior, 0.6, {0.8, 0.5, 0.0}},
+                                                  Case{{25, 15, 14}, Side::interior, 1.5, {0.0, 0.8, 0.5}}}) {
+    SphereGrid const grid = grid_of_order(*ellipsoid(axes), 12), square = 15;
+    EXPECT_EQ(grid.n_ring(), 20);
+    EXPECT_LT(grid.size(), 1.1 * square.size());
+    EXPECT_LT(field_error(axes, side, grid, 1e-7, scale, source), 0.5 * field_error(axes, side, square, 1e-7, scale, source));
+  }
 }
 
 TEST(DirichletFlow, triaxial_ellipsoid_meets_the_flow_of_a_point_force_on_both_sides) {

@@ -9,12 +9,12 @@ using namespace asterflow;
 
 namespace {
 
-Surface surface_of(Vec3d semi_axes, int order, double width = 0.0) {
+Surface surface_of(Vec3d semi_axes, SphereGrid const& grid, double width = 0.0) {
   ShapeSpec spec;
   spec.kind = ShapeSpec::Kind::ellipsoid;
   spec.semi_axes = semi_axes;
   auto shape = make_shape(spec);
-  return width > 0.0 ? Surface(shape, order, Grading(pole_frame(normalized(Vec3d{1, 1, 0.3})), width)) : Surface(shape, order);
+  return width > 0.0 ? Surface(shape, grid, Grading(pole_frame(normalized(Vec3d{1, 1, 0.3})), width)) : Surface(shape, grid);
 }
 
 // A smooth density.
@@ -50,7 +50,7 @@ TEST(DoubleLayer, constant_density_gives_one_inside_half_on_and_zero_outside) {
 }
 
 TEST(DoubleLayer, both_kinds_of_rows_agree_at_any_distance) {
-  Surface const surface = surface_of({1.5, 1, 1}, 16);
+  Surface const surface = surface_of({1.5, 1, 1}, {14, 20});
   DoubleLayer const by_modes(surface, Side::interior, 11.0);
   GeneralRows const by_nodes(surface, 11.0);
   Eigen::VectorXd const q = density(surface);
