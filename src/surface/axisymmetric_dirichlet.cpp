@@ -13,6 +13,8 @@ namespace {
 
 using Eigen::MatrixXd;
 
+constexpr double rough_accuracy = 1e-4;
+
 double quadrature_digits(double accuracy) { return std::clamp(1.5 - std::log10(accuracy), 4.0, 13.0); }
 
 }  // namespace
@@ -36,17 +38,13 @@ void AxisymmetricDirichlet::assemble(double accuracy) {
     if (side_ == Side::exterior && m < 2)
       matrices_[n_mode_ + m] = inverse.solve(boundary.load_of_density(static_cast<int>(m)).transpose()).transpose();
   });
-  drop_negligible_shells(accuracy);
+  for (int m = 0; m < n_mode_; ++m) matrices_[m] = matrices_[m].topRows(shells_above(m, 0.1 * accuracy) * 3 * n_ring_).eval();
 }
 
-void AxisymmetricDirichlet::drop_negligible_shells(double accuracy) {
-  for (int m = 0; m < n_mode_; ++m) {
-    MatrixXd& shells = matrices_[m];
-    int kept = n_shell_;
-    while (kept > 1 && shells.middleRows((kept - 1) * 3 * n_ring_, 3 * n_ring_).lpNorm<Eigen::Infinity>() < 0.1 * accuracy)
-      --kept;
-    shells = shells.topRows(kept * 3 * n_ring_).eval();
-  }
+long AxisymmetricDirichlet::shells_above(int m, double size) const {
+  long kept = matrices_[m].rows() / (3 * n_ring_);
+  while (kept > 1 && matrices_[m].middleRows((kept - 1) * 3 * n_ring_, 3 * n_ring_).lpNorm<Eigen::Infinity>() < size) --kept;
+  return kept;
 }
 
 // Velocity on the shells of the density itself; solved for boundary data by the caller.
@@ -76,11 +74,21 @@ void AxisymmetricDirichlet::assemble_shells(ModalBoundary const& boundary) {
   });
 }
 
-void AxisymmetricDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const {
+void AxisymmetricDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<double>>& modes) const {
   std::vector<RingMode> const boundary = analyse_modes(surface_, transform_, boundary_velocity);
   modes.resize(n_mode_);
   parallel_for("AxisymmetricDirichlet::shell_modes", n_mode_,
-               [&](long m) { multiply(matrices_[m], boundary[m], modes[m]); });
+               [&](long m) { multiply<double>(matrices_[m], boundary[m], modes[m]); });
+}
+
+void AxisymmetricDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<float>>& modes) const {
+  if (rough_.empty())
+    for (int m = 0; m < n_mode_; ++m)
+      rough_.push_back(matrices_[m].topRows(shells_above(m, rough_accuracy) * 3 * n_ring_).cast<float>());
+  std::vector<RingMode> const boundary = analyse_modes(surface_, transform_, boundary_velocity);
+  modes.resize(n_mode_);
+  parallel_for("AxisymmetricDirichlet::shell_modes", n_mode_,
+               [&](long m) { multiply<float>(rough_[m], boundary[m].cast<float>(), modes[m]); });
 }
 
 Eigen::Matrix<double, 6, 1> AxisymmetricDirichlet::load(ConstPoints boundary_velocity) const {

@@ -12,14 +12,15 @@ class AxisymmetricDirichlet : public ShellOperator {
   // With `matrices` of an equal operator nothing is computed.
   AxisymmetricDirichlet(Surface const& surface, Side side, int n_shell, double accuracy, Matrices matrices);
 
-  void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const override;
+  void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<double>>& modes) const override;
+  void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<float>>& modes) const override;
   Eigen::Matrix<double, 6, 1> load(ConstPoints boundary_velocity) const override;
   Matrices const& matrices() const override { return matrices_; }
 
  private:
   void assemble(double accuracy);
   void assemble_shells(ModalBoundary const& boundary);
-  void drop_negligible_shells(double accuracy);
+  long shells_above(int mode, double size) const;  // up to the last that has an entry above it
 
   Surface const& surface_;
   Side side_;
@@ -27,6 +28,7 @@ class AxisymmetricDirichlet : public ShellOperator {
   int n_shell_, n_ring_, n_mode_;
   // [mode] (kept shells * 3 n_ring) x (3 n_ring); then, exterior, of modes 0 and 1: load of boundary velocity, 2 x (3 n_ring)
   Matrices matrices_;
+  mutable std::vector<Eigen::MatrixXf> rough_;  // of each mode, fewer shells; made when it is first wanted
 };
 
 }  // namespace asterflow

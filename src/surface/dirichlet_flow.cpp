@@ -94,26 +94,26 @@ void DirichletFlow::plan(ConstPoints targets, Targets& result) const {
 }
 
 void DirichletFlow::add_velocity(ConstPoints boundary_velocity, Targets const& targets, Points velocity) const {
-  add_interpolated(table_, values_, boundary_velocity, targets, velocity);
+  add_interpolated(table_, work_, boundary_velocity, targets, velocity);
 }
 
 void DirichletFlow::add_rough_velocity(ConstPoints boundary_velocity, Targets const& targets, Points velocity) const {
-  add_interpolated(rough_table_, rough_values_, boundary_velocity, targets, velocity);
+  add_interpolated(rough_table_, rough_work_, boundary_velocity, targets, velocity);
 }
 
 template <class Real>
-void DirichletFlow::add_interpolated(ShellTable const& table, ShellTable::Values<Real>& values,
-                                     ConstPoints boundary_velocity, Targets const& targets, Points velocity) const {
+void DirichletFlow::add_interpolated(ShellTable const& table, Evaluation<Real>& work, ConstPoints boundary_velocity,
+                                     Targets const& targets, Points velocity) const {
   ASTERFLOW_REQUIRE(targets.size() == velocity.size());
-  operator_->shell_modes(boundary_velocity, modes_);
-  table.fill(modes_, values);
+  operator_->shell_modes(boundary_velocity, work.modes);
+  table.fill(work.modes, work.values);
   constexpr long chunk = 256;
   auto const n = static_cast<long>(targets.size());
   parallel_for("DirichletFlow::interpolate", (n + chunk - 1) / chunk, [&](long block) {
     for (long i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
       Targets::Point const& point = targets.points_[i];
       double u[3];
-      table.interpolate(values, point.table, u);
+      table.interpolate(work.values, point.table, u);
       velocity[i] += point.factor * surface_->from_polar({u[0], u[1], u[2]});
     }
   });
@@ -140,7 +140,7 @@ Matrix6 DirichletFlow::resistance() const {
 }
 
 std::size_t DirichletFlow::memory() const {
-  std::size_t bytes = table_.memory() + rough_values_.memory();
+  std::size_t bytes = table_.memory() + rough_work_.values.memory();
   for (auto const& matrix : operator_->matrices()) bytes += sizeof(double) * static_cast<std::size_t>(matrix.size());
   return bytes;
 }

@@ -53,8 +53,14 @@ class DirichletFlow {
   std::size_t memory() const;  // bytes
 
  private:
+  // Work space of an evaluation.
   template <class Real>
-  void add_interpolated(ShellTable const& table, ShellTable::Values<Real>& values, ConstPoints boundary_velocity,
+  struct Evaluation {
+    std::vector<ShellMode<Real>> modes;
+    ShellTable::Values<Real> values;
+  };
+  template <class Real>
+  void add_interpolated(ShellTable const& table, Evaluation<Real>& work, ConstPoints boundary_velocity,
                         Targets const& targets, Points velocity) const;
 
   std::unique_ptr<Surface const> surface_;  // the operator refers to it
@@ -62,9 +68,8 @@ class DirichletFlow {
   int n_shell_;
   ShellTable table_, rough_table_;
   std::unique_ptr<ShellOperator const> operator_;
-  mutable std::vector<ShellMode> modes_;
-  mutable ShellTable::Values<double> values_;
-  mutable ShellTable::Values<float> rough_values_;
+  mutable Evaluation<double> work_;
+  mutable Evaluation<float> rough_work_;
 };
 
 // Grid of that order with as many rings along a long shape as resolve nearby objects at its side like azimuths do: a force at

@@ -107,7 +107,7 @@ PointArray GeneralDirichlet::to_polar(ConstPoints field) const {
   return turned;
 }
 
-void GeneralDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const {
+void GeneralDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<double>>& modes) const {
   int const n_ring = surface_.grid().n_ring(), n_mode = surface_.grid().n_mode();
   PointArray const data = to_polar(boundary_velocity);
   std::array<VectorXd, MirrorClasses::count> coefficients;
@@ -128,6 +128,13 @@ void GeneralDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<Sh
     std::vector<RingMode> const rings = analyse_modes(surface_, transform_, shell);
     for (int m = 0; m < n_mode; ++m) modes[m].middleRows(3 * n_ring * k, 3 * n_ring) = rings[m];
   });
+}
+
+void GeneralDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<float>>& modes) const {
+  std::vector<ShellMode<double>> exact;
+  shell_modes(boundary_velocity, exact);
+  modes.resize(exact.size());
+  for (std::size_t m = 0; m < modes.size(); ++m) modes[m] = exact[m].cast<float>();
 }
 
 Eigen::Matrix<double, 6, 1> GeneralDirichlet::load(ConstPoints boundary_velocity) const {

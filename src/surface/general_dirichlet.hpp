@@ -13,7 +13,8 @@ class GeneralDirichlet : public ShellOperator {
   // Keeps a reference to the surface. With `matrices` of an equal operator nothing is computed.
   GeneralDirichlet(Surface const& surface, Side side, int n_shell, double accuracy, Matrices matrices);
 
-  void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const override;
+  void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<double>>& modes) const override;
+  void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<float>>& modes) const override;
   Eigen::Matrix<double, 6, 1> load(ConstPoints boundary_velocity) const override;
   Matrices const& matrices() const override { return matrices_; }
 

@@ -91,6 +91,20 @@ MatrixXd ModalBoundary::assemble(int m, std::vector<ModalRowSet> const& rings) c
   return a;
 }
 
+namespace {
+
+struct AzimuthFrames {
+  explicit AzimuthFrames(SphereGrid const& grid) {
+    for (int k = 0; k < grid.n_azimuth(); ++k) {
+      cosines.push_back(std::cos(grid.azimuth(k)));
+      sines.push_back(std::sin(grid.azimuth(k)));
+    }
+  }
+  std::vector<double> cosines, sines;
+};
+
+}  // namespace
+
 std::vector<RingMode> analyse_modes(Surface const& surface, AzimuthTransform const& transform, ConstPoints field) {
   ASTERFLOW_REQUIRE(field.size() == surface.size());
   auto const& grid = surface.grid();
@@ -98,10 +112,11 @@ std::vector<RingMode> analyse_modes(Surface const& surface, AzimuthTransform con
   std::vector<RingMode> modes(grid.n_mode(), RingMode(3 * grid.n_ring(), 2));
   std::vector<double> values(3 * n);
   std::vector<std::complex<double>> coefficients(n / 2 + 1);
+  AzimuthFrames const frames(grid);
   for (int j = 0; j < grid.n_ring(); ++j) {
     for (int k = 0; k < n; ++k) {
       Vec3d const w = surface.to_polar(field[static_cast<std::size_t>(j) * n + k]);
-      double const c = std::cos(grid.azimuth(k)), s = std::sin(grid.azimuth(k));
+      double const c = frames.cosines[k], s = frames.sines[k];
       values[k] = w.x;
       values[n + k] = c * w.y + s * w.z;
       values[2 * n + k] = c * w.z - s * w.y;
@@ -124,6 +139,7 @@ void add_synthesis(Surface const& surface, AzimuthTransform const& transform, st
   int const n = grid.n_azimuth(), n_ring = grid.n_ring();
   std::vector<double> values(3 * n);
   std::vector<std::complex<double>> coefficients(n / 2 + 1);
+  AzimuthFrames const frames(grid);
   for (int j = 0; j < n_ring; ++j) {
     for (int c = 0; c < 3; ++c) {
       coefficients.back() = 0.0;
@@ -134,7 +150,7 @@ void add_synthesis(Surface const& surface, AzimuthTransform const& transform, st
       transform.synthesise(coefficients.data(), values.data() + c * n);
     }
     for (int k = 0; k < n; ++k) {
-      double const c = std::cos(grid.azimuth(k)), s = std::sin(grid.azimuth(k));
+      double const c = frames.cosines[k], s = frames.sines[k];
       field[static_cast<std::size_t>(j) * n + k] += surface.from_polar(
           {values[k], c * values[n + k] - s * values[2 * n + k], s * values[n + k] + c * values[2 * n + k]});
     }

@@ -195,7 +195,7 @@ void ScreenedForces::add_velocity(std::vector<TablePoint> const& points, ConstPo
   PointArray in_polar(forces.size());
   std::ranges::transform(forces, in_polar.begin(), [&](Vec3d f) { return surface_.to_polar(f); });
   table_.collect(points, in_polar, collected_, work_);
-  parallel_for("ScreenedForces::modes", n_mode_, [&](long m) { multiply(matrices_[m], collected_[m], modes_[m]); });
+  parallel_for("ScreenedForces::modes", n_mode_, [&](long m) { multiply<double>(matrices_[m], collected_[m], modes_[m]); });
   add_synthesis(surface_, transform_, modes_, velocity);
 }
 

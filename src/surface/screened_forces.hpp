@@ -47,7 +47,7 @@ class ScreenedForces {
   AzimuthTransform transform_;
   std::vector<Eigen::MatrixXd> basis_at_rings_;  // [order m] [n_ring, l]
   std::vector<Eigen::MatrixXd> matrices_;        // [mode] (3 n_ring) x (kept shells * 3 feet)
-  mutable std::vector<ShellMode> collected_, modes_;
+  mutable std::vector<ShellMode<double>> collected_, modes_;
   mutable ShellTable::Collection work_;
 };
 

@@ -12,8 +12,10 @@ enum class Side { interior, exterior };
 class ShellOperator {
  public:
   virtual ~ShellOperator() = default;
-  // Coefficients of all azimuthal modes on all shells; overwrites.
-  virtual void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode>& modes) const = 0;
+  // Coefficients of all azimuthal modes on all shells; overwrites. In single precision: to 1e-4 of the largest.
+  // Calls on one object must not overlap.
+  virtual void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<double>>& modes) const = 0;
+  virtual void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<float>>& modes) const = 0;
   // Exterior: force and torque about the centre, along (e_1, e_2, e_3), viscosity 1.
   virtual Eigen::Matrix<double, 6, 1> load(ConstPoints boundary_velocity) const = 0;
   // Everything that was computed: what an equal operator can be made of (operator_cache.hpp).

@@ -56,10 +56,16 @@ ShellTable::ShellTable(SphereGrid const& grid, int n_shell, int window_width, do
   ASTERFLOW_REQUIRE(n_shell >= 2);
   std::vector<double> psi;
   for (int k = 0; k < n_shell; ++k) psi.push_back(pi * k / (n_shell - 1));
-  psi_up_ = upsampling(psi, false, n_psi_, margin_, window_);
-  for (bool const odd : {false, true}) theta_up_[odd] = upsampling(grid.polar_angles(), odd, n_theta_, margin_, window_);
+  up_.psi = upsampling(psi, false, n_psi_, margin_, window_);
+  for (bool const odd : {false, true}) up_.theta[odd] = upsampling(grid.polar_angles(), odd, n_theta_, margin_, window_);
+  rough_up_ = {up_.psi.cast<float>(), {up_.theta[0].cast<float>(), up_.theta[1].cast<float>()}};
   for (int m = 0; m < n_mode_; ++m) phi_correction_.push_back(1.0 / window_.transform(static_cast<double>(m) / n_phi_));
 }
+
+template <>
+ShellTable::Upsampling<double> const& ShellTable::up() const { return up_; }
+template <>
+ShellTable::Upsampling<float> const& ShellTable::up() const { return rough_up_; }
 
 TablePoint ShellTable::locate(double psi, Vec3d d) {
   double const sine = std::hypot(d.y, d.z), theta = std::atan2(sine, d.x);
@@ -68,49 +74,51 @@ TablePoint ShellTable::locate(double psi, Vec3d d) {
 }
 
 std::size_t ShellTable::memory() const {
-  auto const cells = static_cast<std::size_t>(psi_up_.rows() * theta_up_[0].rows());
+  auto const cells = static_cast<std::size_t>(up_.psi.rows() * up_.theta[0].rows());
   return sizeof(double) * cells * (3 * row_ + 6 * n_mode_);
 }
 
 // Upsampling is a tensor product: theta and psi by small matrices mode by mode, phi by a Fourier transform.
 template <class Real>
-void ShellTable::fill(std::vector<ShellMode> const& modes, Values<Real>& values) const {
+void ShellTable::fill(std::vector<ShellMode<Real>> const& modes, Values<Real>& values) const {
   ASTERFLOW_REQUIRE(static_cast<int>(modes.size()) == n_mode_);
-  values.velocity.resize(static_cast<std::size_t>(psi_up_.rows() * theta_up_[0].rows()) * 3 * row_ + max_lanes);
+  values.velocity.resize(static_cast<std::size_t>(up_.psi.rows() * up_.theta[0].rows()) * 3 * row_ + max_lanes);
   values.meridian.resize(modes.size());
   parallel_for("ShellTable::fill_meridian", n_mode_,
                [&](long m) { fill_meridian(static_cast<int>(m), modes[m], values.meridian[m]); });
-  parallel_for("ShellTable::fill_azimuth", psi_up_.rows(), [&](long i) { fill_azimuth(i, values); });
+  parallel_for("ShellTable::fill_azimuth", up_.psi.rows(), [&](long i) { fill_azimuth(i, values); });
 }
 
-void ShellTable::fill_meridian(int m, ShellMode const& mode, MatrixXd& fine) const {
-  auto const n_psi = psi_up_.rows(), n_theta = theta_up_[0].rows(), n_kept = mode.rows() / (3 * n_ring_);
+template <class Real>
+void ShellTable::fill_meridian(int m, ShellMode<Real> const& mode, Eigen::MatrixX<Real>& fine) const {
+  using Matrix = Eigen::MatrixX<Real>;
+  auto const n_psi = up_.psi.rows(), n_theta = up_.theta[0].rows(), n_kept = mode.rows() / (3 * n_ring_);
   fine.resize(n_theta, 6 * n_psi);
-  MatrixXd rings(n_theta, n_kept);
+  Matrix rings(n_theta, n_kept);
   for (int part = 0; part < 2; ++part)
     for (int c = 0; c < 3; ++c) {
-      Eigen::Map<MatrixXd const, 0, Eigen::OuterStride<>> const coarse(mode.col(part).data() + c * n_ring_, n_ring_, n_kept,
-                                                                       Eigen::OuterStride<>(3 * n_ring_));
+      Eigen::Map<Matrix const, 0, Eigen::OuterStride<>> const coarse(mode.col(part).data() + c * n_ring_, n_ring_, n_kept,
+                                                                     Eigen::OuterStride<>(3 * n_ring_));
       bool const odd = ((c > 0) + m) % 2 != 0;
-      rings.noalias() = theta_up_[odd] * coarse;
-      rings *= phi_correction_[m];
-      fine.middleCols((part * 3 + c) * n_psi, n_psi).noalias() = rings * psi_up_.leftCols(n_kept).transpose();
+      rings.noalias() = up<Real>().theta[odd] * coarse;
+      rings *= static_cast<Real>(phi_correction_[m]);
+      fine.middleCols((part * 3 + c) * n_psi, n_psi).noalias() = rings * up<Real>().psi.leftCols(n_kept).transpose();
     }
 }
 
 template <class Real>
 void ShellTable::fill_azimuth(long i_psi, Values<Real>& values) const {
-  auto const n_psi = psi_up_.rows(), n_theta = theta_up_[0].rows();
+  auto const n_psi = up_.psi.rows(), n_theta = up_.theta[0].rows();
   long const n_coefficient = n_phi_ / 2 + 1;
   std::vector<std::complex<double>> spectra(n_theta * n_coefficient);  // the modes that are not set stay zero
   std::vector<std::complex<double>> spectrum(n_coefficient);           // overwritten by the transform
   std::vector<double> circle(n_phi_);
   for (int c = 0; c < 3; ++c) {
     for (int m = 0; m < n_mode_; ++m) {
-      double const* const re = values.meridian[m].col(c * n_psi + i_psi).data();
-      double const* const im = values.meridian[m].col((3 + c) * n_psi + i_psi).data();
+      Real const* const re = values.meridian[m].col(c * n_psi + i_psi).data();
+      Real const* const im = values.meridian[m].col((3 + c) * n_psi + i_psi).data();
       for (Eigen::Index j = 0; j < n_theta; ++j)
-        spectra[j * n_coefficient + m] = c < 2 ? std::complex(re[j], im[j]) : std::complex(-im[j], re[j]);
+        spectra[j * n_coefficient + m] = c < 2 ? std::complex<double>(re[j], im[j]) : std::complex<double>(-im[j], re[j]);
     }
     for (Eigen::Index j = 0; j < n_theta; ++j) {
       std::copy_n(&spectra[j * n_coefficient], n_coefficient, spectrum.data());
@@ -131,7 +139,7 @@ void ShellTable::interpolate_with(Values<Real> const& values, TablePoint const& 
   for (int d = 0; d < 3; ++d) first[d] = window_.weigh(width, position[d], weights[d]) + margin_;
   constexpr int lanes = (3 * width + 7) / 8 * 8;  // whole vectors of (node, component); the rest weighs nothing
   Real sums[lanes] = {};
-  auto const n_theta = theta_up_[0].rows();
+  auto const n_theta = up_.theta[0].rows();
   for (int a = 0; a < width; ++a)
     for (int b = 0; b < width; ++b) {
       Real const w = static_cast<Real>(weights[0][a] * weights[1][b]);
@@ -158,8 +166,8 @@ void ShellTable::interpolate(Values<Real> const& values, TablePoint const& point
   }
 }
 
-template void ShellTable::fill(std::vector<ShellMode> const&, Values<double>&) const;
-template void ShellTable::fill(std::vector<ShellMode> const&, Values<float>&) const;
+template void ShellTable::fill(std::vector<ShellMode<double>> const&, Values<double>&) const;
+template void ShellTable::fill(std::vector<ShellMode<float>> const&, Values<float>&) const;
 template void ShellTable::interpolate(Values<double> const&, TablePoint const&, double[3]) const;
 template void ShellTable::interpolate(Values<float> const&, TablePoint const&, double[3]) const;
 

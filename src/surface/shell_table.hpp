@@ -18,7 +18,8 @@ namespace asterflow {
 // Fourier coefficients of one azimuthal mode m (azimuth_transform.hpp) on all shells and rings: real and imaginary part.
 // Rows: (i_shell * 3 + component) * n_ring + i_ring. The azimuthal component is divided by i. Shells that are left out
 // at the end hold nothing of this mode.
-using ShellMode = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+template <class Real>
+using ShellMode = Eigen::Matrix<Real, Eigen::Dynamic, 2>;
 
 // Position of a target, for the tables of any resolution, and its frame.
 struct TablePoint {
@@ -41,12 +42,12 @@ class ShellTable {
   // Numbers of type Real: double or float.
   template <class Real>
   struct Values {
-    std::vector<Real> velocity;             // [psi, theta, phi, component]
-    std::vector<Eigen::MatrixXd> meridian;  // work space: [mode] [theta, (part, component, psi)]
+    std::vector<Real> velocity;                    // [psi, theta, phi, component]
+    std::vector<Eigen::MatrixX<Real>> meridian;    // work space: [mode] [theta, (part, component, psi)]
     std::size_t memory() const { return sizeof(Real) * velocity.capacity(); }  // bytes
   };
   template <class Real>
-  void fill(std::vector<ShellMode> const& modes, Values<Real>& values) const;  // overwrites
+  void fill(std::vector<ShellMode<Real>> const& modes, Values<Real>& values) const;  // overwrites
   // Components along (e_1, e_2, e_3).
   template <class Real>
   void interpolate(Values<Real> const& values, TablePoint const& point, double velocity[3]) const;
@@ -64,16 +65,17 @@ class ShellTable {
     std::vector<std::vector<std::size_t>> starting;  // [psi] forces whose first node this is
     std::vector<Eigen::MatrixXd> meridian;           // [mode] [theta, (part, component, psi)]
   };
-  void collect(std::vector<TablePoint> const& points, ConstPoints forces, std::vector<ShellMode>& modes,
+  void collect(std::vector<TablePoint> const& points, ConstPoints forces, std::vector<ShellMode<double>>& modes,
                Collection& work) const;
 
  private:
-  void fill_meridian(int m, ShellMode const& mode, Eigen::MatrixXd& fine) const;
+  template <class Real>
+  void fill_meridian(int m, ShellMode<Real> const& mode, Eigen::MatrixX<Real>& fine) const;
   template <class Real>
   void fill_azimuth(long i_psi, Values<Real>& values) const;
   void weigh_forces(std::vector<TablePoint> const& points, ConstPoints forces, Collection& work) const;
   void collect_azimuth(long i_psi, Collection& work) const;
-  void collect_meridian(int m, Eigen::MatrixXd const& fine, ShellMode& mode) const;
+  void collect_meridian(int m, Eigen::MatrixXd const& fine, ShellMode<double>& mode) const;
   template <int width, class Real>
   void interpolate_with(Values<Real> const& values, TablePoint const& point, double velocity[3]) const;
 
@@ -81,8 +83,15 @@ class ShellTable {
   InterpolationWindow window_;
   int n_psi_, n_theta_, n_phi_;         // cells along [0, pi], [0, pi], [0, 2 pi)
   int margin_, row_;                    // ghost nodes on each side; nodes of a circle of phi with its ghosts
-  Eigen::MatrixXd psi_up_;              // [n_psi + 1 + 2 margin, n_shell]
-  Eigen::MatrixXd theta_up_[2];         // [n_theta + 1 + 2 margin, n_ring], even and odd in theta
+  template <class Real>
+  struct Upsampling {
+    Eigen::MatrixX<Real> psi;       // [n_psi + 1 + 2 margin, n_shell]
+    Eigen::MatrixX<Real> theta[2];  // [n_theta + 1 + 2 margin, n_ring], even and odd in theta
+  };
+  template <class Real>
+  Upsampling<Real> const& up() const;
+  Upsampling<double> up_;
+  Upsampling<float> rough_up_;
   std::vector<double> phi_correction_;  // [n_mode]
   AzimuthTransform transform_;
 };

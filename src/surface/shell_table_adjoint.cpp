@@ -9,13 +9,13 @@ namespace asterflow {
 
 using Eigen::MatrixXd;
 
-void ShellTable::collect(std::vector<TablePoint> const& points, ConstPoints forces, std::vector<ShellMode>& modes,
+void ShellTable::collect(std::vector<TablePoint> const& points, ConstPoints forces, std::vector<ShellMode<double>>& modes,
                          Collection& work) const {
   ASTERFLOW_REQUIRE(points.size() == forces.size() && static_cast<int>(modes.size()) == n_mode_);
   weigh_forces(points, forces, work);
   work.meridian.resize(modes.size());
-  for (auto& fine : work.meridian) fine.resize(theta_up_[0].rows(), 6 * psi_up_.rows());
-  parallel_for("ShellTable::collect_azimuth", psi_up_.rows(), [&](long i) { collect_azimuth(i, work); });
+  for (auto& fine : work.meridian) fine.resize(up_.theta[0].rows(), 6 * up_.psi.rows());
+  parallel_for("ShellTable::collect_azimuth", up_.psi.rows(), [&](long i) { collect_azimuth(i, work); });
   parallel_for("ShellTable::collect_meridian", n_mode_,
                [&](long m) { collect_meridian(static_cast<int>(m), work.meridian[m], modes[m]); });
 }
@@ -38,14 +38,14 @@ void ShellTable::weigh_forces(std::vector<TablePoint> const& points, ConstPoints
       force.phi[3 * i + 2] = phi[i] * f_phi;
     }
   });
-  work.starting.resize(psi_up_.rows());
+  work.starting.resize(up_.psi.rows());
   for (auto& row : work.starting) row.clear();
   for (std::size_t j = 0; j < points.size(); ++j) work.starting[work.forces[j].first[0]].push_back(j);
 }
 
 // Forces on the nodes of one psi, and their Fourier coefficients.
 void ShellTable::collect_azimuth(long i_psi, Collection& work) const {
-  auto const n_psi = psi_up_.rows(), n_theta = theta_up_[0].rows();
+  auto const n_psi = up_.psi.rows(), n_theta = up_.theta[0].rows();
   long const width = window_.width(), lanes = 3 * width;
   std::vector<double> grid(static_cast<std::size_t>(n_theta) * 3 * row_);
   for (long start = std::max(0L, i_psi - width + 1); start <= i_psi; ++start)
@@ -74,16 +74,16 @@ void ShellTable::collect_azimuth(long i_psi, Collection& work) const {
     }
 }
 
-void ShellTable::collect_meridian(int m, MatrixXd const& fine, ShellMode& mode) const {
-  auto const n_psi = psi_up_.rows(), n_kept = mode.rows() / (3 * n_ring_);
+void ShellTable::collect_meridian(int m, MatrixXd const& fine, ShellMode<double>& mode) const {
+  auto const n_psi = up_.psi.rows(), n_kept = mode.rows() / (3 * n_ring_);
   for (int part = 0; part < 2; ++part)
     for (int c = 0; c < 3; ++c) {
       bool const odd = ((c > 0) + m) % 2 != 0;
-      MatrixXd rings = fine.middleCols((part * 3 + c) * n_psi, n_psi) * psi_up_.leftCols(n_kept);
+      MatrixXd rings = fine.middleCols((part * 3 + c) * n_psi, n_psi) * up_.psi.leftCols(n_kept);
       rings *= phi_correction_[m] * n_phi_;
       Eigen::Map<MatrixXd, 0, Eigen::OuterStride<>> coarse(mode.col(part).data() + c * n_ring_, n_ring_, n_kept,
                                                            Eigen::OuterStride<>(3 * n_ring_));
-      coarse.noalias() = theta_up_[odd].transpose() * rings;
+      coarse.noalias() = up_.theta[odd].transpose() * rings;
     }
 }
 
