@@ -1,7 +1,7 @@
 #pragma once
 // Solution operator (shell_operator.hpp) of a triaxial ellipsoid; equation as in modal_boundary.hpp, rows of
-// general_rows.hpp. Its three mirror planes split it into eight dense blocks (mirror_classes.hpp): with 2 (p + 1)^2
-// nodes and n shells they take about 4.5 n (p + 1)^4 numbers, 0.3 GB at order 24.
+// general_rows.hpp. Its three mirror planes split it into eight dense blocks (mirror_classes.hpp): with N nodes and n
+// shells they take about 1.1 n N^2 numbers, 0.3 GB for 1250 nodes.
 
 #include "surface/mirror_classes.hpp"
 #include "surface/shell_operator.hpp"
