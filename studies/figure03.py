@@ -5,7 +5,7 @@ from mechanism import draw_mechanism, record_course, record_shape, spread
 from study import Study, mean_over
 
 study = Study("figure03", __doc__)
-runs = study.runs("cortical_pulling", "cortical_pulling.toml", 2400.0)
+runs = study.runs("cortical_pulling", "cortical_pulling.toml", 3600.0)
 picture, tables = draw_mechanism(study, runs, "cortical pulling")
 record_course(study, tables, "centres, within about 10 min", "aligns, with the centring")
 study.record("captured fibers at the end", "about 32 on each side",

@@ -14,7 +14,7 @@ CASES = {"100 sites": ("cortical_pulling", {}, "centres"),
 study = Study("figure16", __doc__)
 picture, axes = plt.subplots(1, 3, figsize=(14, 4), constrained_layout=True)
 for axis, (name, (run_name, changes, centring)) in zip(axes, CASES.items()):
-    runs = study.runs(run_name, "cortical_pulling.toml", 2400.0, **changes)
+    runs = study.runs(run_name, "cortical_pulling.toml", 3600.0, **changes)
     tables = [study.observe(run) for run in runs]
     draw_course(axis, tables, [f"seed {seed}" for seed in study.options.seeds])
     axis.set_title(f"{name}, {study.options.fibers} microtubules")
