@@ -4,6 +4,7 @@
 #include "backends/fast_kernel.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace asterflow {
 namespace {
@@ -18,6 +19,14 @@ Real* scratch(long n) {
   std::size_t const wanted = static_cast<std::size_t>(n) * sizeof(Real) / sizeof(Line) + 1;
   if (lines.size() < wanted) lines.resize(wanted);
   return reinterpret_cast<Real*>(lines.data());
+}
+
+std::vector<std::uint32_t> heaviest_first(TileView const& tiles, std::size_t n) {
+  std::vector<std::uint32_t> order(n);
+  std::iota(order.begin(), order.end(), 0u);
+  auto const points = [&](std::uint32_t tile) { return tiles.begin[tile + 1] - tiles.begin[tile]; };
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return points(a) > points(b); });
+  return order;
 }
 
 }  // namespace
@@ -37,8 +46,13 @@ void FarField<Real>::set_points(Octree const& tree) {
   tree_ = &tree;
   patches_.set_points(tree);
   views_.clear();
+  orders_.clear();
   batches_.clear();
-  for (Patch<Real> const& patch : patches_.patches()) views_.push_back(patches_.window().view(patch, loops_.lanes));
+  for (Patch<Real> const& patch : patches_.patches()) {
+    views_.push_back(patches_.window().view(patch, loops_.lanes));
+    auto const n = static_cast<std::size_t>(patch.n_tile());
+    orders_.push_back({heaviest_first(views_.back().sources, n), heaviest_first(views_.back().targets, n)});
+  }
   for (auto const& batch : patches_.batches()) {
     batches_.push_back({batch.first, batch.last, {}, {}});
     place_work(batches_.back());
@@ -104,8 +118,8 @@ void FarField<Real>::run(Batch const& batch, Vec3d* velocity, Vec3d* gradient) {
   auto const tiles = [](View const& patch) { return static_cast<long>(patch.tiles_y) * patch.tiles_z; };
   auto const window = patches_.window().view();
 
-  for_all(batch, tiles, [&](View const& patch, std::size_t i, long tile) {
-    loops_.forward(window, patch, components_, tile, &tree_->sources().data()->x, strengths_.data(), spectrum(i),
+  for_all(batch, tiles, [&](View const& patch, std::size_t i, long k) {
+    loops_.forward(window, patch, components_, orders_[batch.first + i].sources[k], &tree_->sources().data()->x, strengths_.data(), spectrum(i),
                    scratch<Real>(loops_.forward_scratch(window, patch, components_)));
   });
   for (bool inverse : {false, true}) {
@@ -125,8 +139,8 @@ void FarField<Real>::run(Batch const& batch, Vec3d* velocity, Vec3d* gradient) {
             loops_.x_inverse(patch, patch.target_low[2] + static_cast<int>(z), spectrum(i), grid(i),
                              scratch<Real>(loops_.sweep_scratch(patch)));
           });
-  for_all(batch, tiles, [&](View const& patch, std::size_t i, long tile) {
-    loops_.interpolate(window, patch, tile, &tree_->targets().data()->x, grid(i), &velocity->x, gradient ? &gradient->x : nullptr);
+  for_all(batch, tiles, [&](View const& patch, std::size_t i, long k) {
+    loops_.interpolate(window, patch, orders_[batch.first + i].targets[k], &tree_->targets().data()->x, grid(i), &velocity->x, gradient ? &gradient->x : nullptr);
   });
 }
 

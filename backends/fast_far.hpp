@@ -31,6 +31,11 @@ class FarField {
     std::vector<long> grid_begin, spectrum_begin;  // of each patch, and the end, in the working memory
   };
 
+  // Tiles of a patch, those with the most points first: one that comes last would keep the other threads waiting.
+  struct TileOrder {
+    std::vector<std::uint32_t> sources, targets;
+  };
+
   void place_work(Batch& batch) const;
   void set_strengths(Vec3d const* strengths, Vec3d const* normals);
   void run(Batch const& batch, Vec3d* velocity, Vec3d* gradient);
@@ -44,6 +49,7 @@ class FarField {
   FarPatches<Real> patches_;
   Octree const* tree_ = nullptr;
   std::vector<PatchView<Real>> views_;  // of the patches
+  std::vector<TileOrder> orders_;       // likewise
   std::vector<Batch> batches_;
   std::vector<Real> strengths_, grid_, spectrum_;
 };
