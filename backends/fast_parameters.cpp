@@ -24,12 +24,14 @@ FastParameters fast_parameters(std::string_view kernel, double accuracy, bool gr
   p.sums_in_double = digits > 4.53;
   p.refinement_steps = p.single ? (digits > 3.53) : (digits > 7.0);
   p.gradient = gradient;
-  p.nodes_per_point = p.single ? 40.0 : 20.0 * std::max(1.0, std::pow(digits / 6.0, 3));
+  bool const is_tensor = kernel.starts_with("stresslet");  // six components instead of three
+  p.nodes_per_point = p.single ? (is_tensor ? 26.0 : 40.0) : 20.0 * std::max(1.0, std::pow(digits / 6.0, 3));
+  p.fewest_nodes = (p.single && p.sums_in_double ? 5e3 : 3.5e4) * p.nodes_per_point;
   return p;
 }
 
 double FastParameters::max_nodes(std::size_t n_point) const {
-  return std::clamp(nodes_per_point * static_cast<double>(n_point), 3.5e4 * nodes_per_point, 6.4e7);
+  return std::clamp(nodes_per_point * static_cast<double>(n_point), fewest_nodes, 6.4e7);
 }
 
 }  // namespace asterflow

@@ -21,7 +21,8 @@ struct FastParameters {
   bool gradient = false;      // whether gradients will be asked for
 
   long capacity = 150;        // points of a leaf, mean of sources and targets; two or four times as many where cheaper
-  double nodes_per_point;     // bounds the memory of a patch
+  double nodes_per_point;     // bounds the memory of a patch,
+  double fewest_nodes;        // which may have so many in any case
   double batch_nodes = 1e6;   // of patches handled together, unless one alone is larger
   double max_nodes(std::size_t n_point) const;  // of one patch; n_point: mean of sources and targets
 };
