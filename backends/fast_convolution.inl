@@ -24,7 +24,7 @@ void x_forward(PatchView<Real> const& patch, TileGrid<Real, Sum> const& tile, in
   constexpr int W = lanes<Real>;
   int const nx = patch.nodes[0], n_kx = patch.modes[0] + 1, ny = tile.y_end - tile.y_begin;
   long const row = tile.row, n_ghost = smaller(row - nx, long(nx)), ys = patch.spectrum_row;
-  Sum const* const grid = tile.grid + (z - tile.z_begin) * static_cast<long>(ny) * components * row;
+  Sum const* const grid = tile.grid + (z - tile.z_begin) * static_cast<long>(ny) * components * tile.stride;
   P *const re = work, *const im = re + row, *const work_re = im + row, *const work_im = work_re + row;
   for (int c = 0; c < components; ++c)
     for (int y0 = 0; y0 < ny; y0 += 2 * W) {
@@ -34,7 +34,7 @@ void x_forward(PatchView<Real> const& patch, TileGrid<Real, Sum> const& tile, in
           P square[W];
           for (int i = 0; i < W; ++i) {
             int const y = y0 + part * W + i;
-            square[i] = y < ny ? load_as<Real>(grid + (static_cast<long>(y) * components + c) * row + x) : P{};
+            square[i] = y < ny ? load_as<Real>(grid + (static_cast<long>(y) * components + c) * tile.stride + x) : P{};
           }
           transpose<Real>(square);
           for (int i = 0; i < W; ++i) line[x + i] = square[i];
@@ -60,7 +60,8 @@ template <class Real>
 long forward_scratch(WindowView<Real> const& window, PatchView<Real> const& patch, int components) {
   long const row = tile_row(patch, window.padded);
   long const per_sum = window.sums_in_double ? static_cast<long>(sizeof(double) / sizeof(Real)) : 1;
-  return row * (4L * patch.tile_y * patch.tile_z * components * per_sum + 4L * lanes<Real>);  // the last tiles are larger
+  long const stride = per_sum > 1 ? per_sum * tile_stride<double>(row) : tile_stride<Real>(row);
+  return 4L * (patch.tile_y * patch.tile_z * components * stride + row * lanes<Real>);  // the last tiles are larger
 }
 
 template <class Real, class Sum>

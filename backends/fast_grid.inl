@@ -98,13 +98,20 @@ long tile_row(PatchView<Real> const& patch, int padded) {
   return (patch.nodes[0] + padded + lanes<Real> - 1) / lanes<Real> * lanes<Real>;
 }
 
+// From row to row: an odd number of cache lines, or the rows that a point meets would share a few sets of the cache.
+template <class Sum>
+long tile_stride(long row) {
+  constexpr long line = 64 / static_cast<long>(sizeof(Sum));
+  return row / line % 2 ? row : row + line;
+}
+
 // The nodes of one tile: y_begin ... y_end - 1, z_begin ... z_end - 1; its rows begin at `grid`, [z, y, component, x].
 // `Sum` is the type in which strengths add up: in float small shares of many strengths of one sign would be lost.
 template <class Real, class Sum>
 struct TileGrid {
   int y, z;  // place of the tile
   int y_begin, y_end, z_begin, z_end;
-  long row;
+  long row, stride;  // numbers of a row, and from one to the next
   Sum* grid;
 
   TileGrid(PatchView<Real> const& patch, long tile, int padded, Sum* memory)
@@ -114,6 +121,7 @@ struct TileGrid {
     z_begin = z * patch.tile_z;
     z_end = z + 1 == patch.tiles_z ? patch.nodes[2] : z_begin + patch.tile_z;
     row = tile_row(patch, padded);
+    stride = tile_stride<Sum>(row);
   }
 };
 
@@ -133,7 +141,7 @@ void spread_point(WindowView<Real> const& window, PatchView<Real> const& patch, 
   w[1].to(wy);
   w[2].to(wz);
   R const weight_x = R::from(wx);
-  long const stride_y = components * tile.row, stride_z = (tile.y_end - tile.y_begin) * stride_y;
+  long const stride_y = components * tile.stride, stride_z = (tile.y_end - tile.y_begin) * stride_y;
   long offset_y[padded];
   Sum weight_y[padded];
   int n_y = 0;
@@ -151,7 +159,7 @@ void spread_point(WindowView<Real> const& window, PatchView<Real> const& patch, 
     Sum* const plane = tile.grid + (z - tile.z_begin) * stride_z + wrapped(place.first[0], patch.nodes[0]);
     for (int m = 0; m < n_y; ++m) {
       Sum* p = plane + offset_y[m];
-      for (int c = 0; c < components; ++c, p += tile.row) {
+      for (int c = 0; c < components; ++c, p += tile.stride) {
         R sum = R::from(p);
         sum.add_product(load_x[c], weight_y[m]);
         sum.to(p);
@@ -163,7 +171,7 @@ void spread_point(WindowView<Real> const& window, PatchView<Real> const& patch, 
 template <class Real, class Sum, int padded, int components>
 void spread_rows(WindowView<Real> const& window, PatchView<Real> const& patch, TileGrid<Real, Sum> const& tile,
                  double const* points, Real const* strengths) {
-  std::memset(tile.grid, 0, sizeof(Sum) * components * tile.row * (tile.y_end - tile.y_begin) * (tile.z_end - tile.z_begin));
+  std::memset(tile.grid, 0, sizeof(Sum) * components * tile.stride * (tile.y_end - tile.y_begin) * (tile.z_end - tile.z_begin));
   for (int dz = 0; dz < smaller(2, patch.tiles_z); ++dz)
     for (int dy = 0; dy < smaller(2, patch.tiles_y); ++dy) {
       int const from = wrapped(tile.z - dz, patch.tiles_z) * patch.tiles_y + wrapped(tile.y - dy, patch.tiles_y);
