@@ -27,7 +27,7 @@ constexpr std::array built_in{
     KernelRates{"rotlet", {0.23, 0.27, 0.50, 0.51}, {0.77, 0.86, 1.0, 1.1}}};
 
 // Near the number where both sums cost the same, or enough of them to occupy a device.
-constexpr long n_direct = default_space_is_host ? 3000 : 60000, n_fast = default_space_is_host ? 4000 : 200000;
+constexpr long n_direct = default_space_is_host ? 3000 : 60000, n_fast = default_space_is_host ? 9000 : 200000;
 
 constexpr double enough = 0.2;  // seconds of repetitions, of which the best count
 constexpr int fewest = 2, most = 9;
