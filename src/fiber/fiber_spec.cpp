@@ -1,5 +1,6 @@
 #include "fiber/fiber_spec.hpp"
 
+#include "base/polar_directions.hpp"
 #include "base/random.hpp"
 #include "fiber/fiber_basis.hpp"
 
@@ -45,11 +46,6 @@ void check_points(Table const& table, std::vector<Vec3d> const& points) {
 }
 
 // Any two unit vectors that make a right-handed frame with the unit vector `axis`.
-std::pair<Vec3d, Vec3d> normals(Vec3d axis) {
-  Vec3d const first = normalized(cross(axis, std::abs(axis.x) > 0.6 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}));
-  return {first, cross(axis, first)};
-}
-
 // Growing and shrinking fibers that turn back at the cortex (b) and are renucleated at their least length (a) have, in
 // the long run, lengths of the density exp(-k l) on [a, b] [Dogterom & Leibler 1993]: chance = its integral from a to l.
 double steady_length(double a, double b, double k, double chance) {
@@ -126,17 +122,15 @@ AsterSpec read_aster(Table table) {
 std::vector<AsterFiber> aster_fibers(AsterSpec const& aster, int count, int body, std::uint64_t seed,
                                      std::uint64_t number, std::function<double(MinusEndSite const&)> const& reach,
                                      double decay) {
-  auto const [first, second] = normals(aster.axis);
+  PolarDirections const at(aster.axis);
   double const lowest = std::cos(aster.opening * std::numbers::pi / 180.0);
-  double const golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
   bool const is_even = aster.arrangement == AsterSpec::Arrangement::even;
   std::uint64_t const stream = mix_bits(0x6173746572ull + number);  // keeps asters apart from fibers' own chance
   std::vector<AsterFiber> fibers(count);
   for (int i = 0; i < count; ++i) {
     double const height = is_even ? (i + 0.5) / count : uniform_random(seed, stream, i, 0);
     double const turn = is_even ? golden_angle * i : 2 * std::numbers::pi * uniform_random(seed, stream, i, 1);
-    double const z = lowest + (1.0 - lowest) * height, r = std::sqrt(std::max(0.0, 1.0 - z * z));
-    Vec3d const direction = normalized(z * aster.axis + (r * std::cos(turn)) * first + (r * std::sin(turn)) * second);
+    Vec3d const direction = normalized(at(lowest + (1.0 - lowest) * height, turn));
     fibers[i].site = {aster.material.minus_end, body, aster.position + aster.centrosome_radius * direction, direction};
     double const chance = uniform_random(seed, stream, i, 2);
     fibers[i].length = random_length(aster, chance);

@@ -1,5 +1,6 @@
 #include "mechanism/cortical_sites.hpp"
 
+#include "base/polar_directions.hpp"
 #include "base/random.hpp"
 #include "base/rigid.hpp"
 
@@ -14,20 +15,6 @@ namespace {
 constexpr std::uint64_t site_stream = 0x736974657300ull;  // keeps sites apart from fibers' own chance
 enum Draw : std::uint64_t { height, turn, acceptance };
 
-// The point of the unit sphere at a height along an axis and a turn about it.
-struct Directions {
-  Vec3d axis, first, second;
-
-  explicit Directions(Vec3d along)
-      : axis(normalized(along)),
-        first(normalized(cross(axis, std::abs(axis.x) > 0.6 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}))),
-        second(cross(axis, first)) {}
-  Vec3d operator()(double height, double turn) const {
-    double const r = std::sqrt(std::max(0.0, 1 - height * height));
-    return height * axis + r * std::cos(turn) * first + r * std::sin(turn) * second;
-  }
-};
-
 Vec3d random_direction(std::uint64_t seed, std::uint64_t site, std::uint64_t attempt) {
   double const z = 2 * uniform_random(seed, site_stream + site, attempt, height) - 1;
   double const phi = 2 * std::numbers::pi * uniform_random(seed, site_stream + site, attempt, turn);
@@ -38,7 +25,7 @@ Vec3d random_direction(std::uint64_t seed, std::uint64_t site, std::uint64_t att
 // Area of the surface over that of the unit sphere, um^2: |cof(J) d| for the map's derivative J across d.
 double area_ratio(Shape const& shape, Vec3d direction) {
   auto const image = shape.image(direction);
-  Directions const across(direction);
+  PolarDirections const across(normalized(direction));
   return norm(cross(image.jacobian * across.first, image.jacobian * across.second));
 }
 
@@ -62,7 +49,7 @@ PointArray random_sites(Shape const& shape, int count, std::uint64_t seed) {
 }
 
 PointArray even_sites(Shape const& shape, Vec3d axis, int count) {
-  Directions const at(axis);
+  PolarDirections const at(normalized(axis));
   constexpr int n_ring = 2000, n_turn = 16;
   std::vector<double> area(n_ring + 1, 0.0);  // below each height -1 + 2 i / n_ring, up to a factor
   for (int i = 0; i < n_ring; ++i) {
@@ -70,7 +57,6 @@ PointArray even_sites(Shape const& shape, Vec3d axis, int count) {
     for (int j = 0; j < n_turn; ++j)
       area[i + 1] += area_ratio(shape, at((2.0 * i + 1) / n_ring - 1, 2 * std::numbers::pi * j / n_turn));
   }
-  double const golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
   PointArray sites;
   for (int site = 0, ring = 0; site < count; ++site) {
     double const wanted = (site + 0.5) / count * area[n_ring];

@@ -1,5 +1,6 @@
 #include "observable/fluid_samples.hpp"
 
+#include "base/polar_directions.hpp"
 #include "base/rigid.hpp"
 #include "io/frame.hpp"
 #include "io/scene_geometry.hpp"
@@ -39,7 +40,7 @@ PointArray cylinder(PlacedScene const& placed, double side) {
 }
 
 void add_beside_fibers(StoredFibers const& fibers, PlacedScene const& placed, FluidSamples& samples) {
-  constexpr double offset = 0.75, golden_angle = 2.399963229728653;
+  constexpr double offset = 0.75;
   std::size_t const stride = fibers.position.size() / n_spread + 1;
   for (std::size_t i = 0; i < fibers.count(); ++i) {
     Vec3d const direction = normalized(fibers.plus_end[i] - fibers.minus_end[i]);

@@ -1,5 +1,7 @@
 #include "surface/local_geometry.hpp"
 
+#include "base/polar_directions.hpp"
+
 #include <cmath>
 
 namespace asterflow {
@@ -7,8 +9,8 @@ namespace asterflow {
 // With tangents T = (t_1, t_2) and changes of the normal N along them, N = S T: S, symmetric, has the curvatures as eigenvalues.
 LocalGeometry local_geometry(Shape const& shape, Vec3d direction) {
   constexpr double step = 1e-4;  // radians
-  Vec3d const helper = std::abs(direction.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-  Vec3d const first = normalized(cross(direction, helper)), v[2] = {first, cross(direction, first)};
+  PolarDirections const across(direction);
+  Vec3d const v[2] = {across.first, across.second};
   Shape::Columns directions(5, 3), positions, areas;
   for (int i = 0; i < 3; ++i)
     directions.col(i) << direction[i], direction[i] + step * v[0][i], direction[i] - step * v[0][i],
