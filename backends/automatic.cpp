@@ -46,7 +46,7 @@ class Automatic final : public Evaluator {
  private:
   // Of fast sums, where they cost less than direct ones.
   std::optional<Plan> cheaper_plan(ConstPoints sources, ConstPoints targets) {
-    bool const same = sources.data() == targets.data() && sources.size() == targets.size();
+    bool const same = is_same(sources, targets);
     double const n_source = static_cast<double>(sources.size()), n_target = static_cast<double>(targets.size());
     double const n = 0.5 * (n_source + n_target);
     if (n < fewest || options_.accuracy < 1e-12) return {};

@@ -39,7 +39,7 @@ class CheckedFast final : public FastEvaluator {
     stricter_.reset();
     accuracy_ = options_.accuracy;
     is_strictest_ = accuracy_ == strictest;
-    is_self_ = sources.data() == targets.data() && sources.size() == targets.size();
+    is_self_ = is_same(sources, targets);
     sources_.assign(sources.begin(), sources.end());
     targets_.assign(targets.begin(), is_self_ ? targets.begin() : targets.end());
     normals_.assign(normals.begin(), normals.end());

@@ -59,8 +59,8 @@ void x_forward(PatchView<Real> const& patch, TileGrid<Real, Sum> const& tile, in
 template <class Real>
 long forward_scratch(WindowView<Real> const& window, PatchView<Real> const& patch, int components) {
   long const row = tile_row(patch, window.padded);
-  long const per_sum = window.sums_in_double ? static_cast<long>(sizeof(double) / sizeof(Real)) : 1;
-  long const stride = per_sum > 1 ? per_sum * tile_stride<double>(row) : tile_stride<Real>(row);
+  constexpr long per_double = sizeof(double) / sizeof(Real);
+  long const stride = window.sums_in_double ? per_double * tile_stride<double>(row) : tile_stride<Real>(row);
   return 4L * (patch.tile_y * patch.tile_z * components * stride + row * lanes<Real>);  // the last tiles are larger
 }
 

@@ -119,7 +119,8 @@ void FarField<Real>::run(Batch const& batch, Vec3d* velocity, Vec3d* gradient) {
   auto const window = patches_.window().view();
 
   for_all(batch, tiles, [&](View const& patch, std::size_t i, long k) {
-    loops_.forward(window, patch, components_, orders_[batch.first + i].sources[k], &tree_->sources().data()->x, strengths_.data(), spectrum(i),
+    loops_.forward(window, patch, components_, orders_[batch.first + i].sources[k], &tree_->sources().data()->x,
+                   strengths_.data(), spectrum(i),
                    scratch<Real>(loops_.forward_scratch(window, patch, components_)));
   });
   for (bool inverse : {false, true}) {
@@ -140,7 +141,8 @@ void FarField<Real>::run(Batch const& batch, Vec3d* velocity, Vec3d* gradient) {
                              scratch<Real>(loops_.sweep_scratch(patch)));
           });
   for_all(batch, tiles, [&](View const& patch, std::size_t i, long k) {
-    loops_.interpolate(window, patch, orders_[batch.first + i].targets[k], &tree_->targets().data()->x, grid(i), &velocity->x, gradient ? &gradient->x : nullptr);
+    loops_.interpolate(window, patch, orders_[batch.first + i].targets[k], &tree_->targets().data()->x, grid(i),
+                       &velocity->x, gradient ? &gradient->x : nullptr);
   });
 }
 

@@ -27,8 +27,6 @@ void extend(ConstPoints points, Vec3d& low, Vec3d& high) {
     }
 }
 
-bool is_same(ConstPoints a, ConstPoints b) { return a.data() == b.data() && a.size() == b.size(); }
-
 }  // namespace
 
 std::uint64_t morton_key(std::uint64_t x, std::uint64_t y, std::uint64_t z) {

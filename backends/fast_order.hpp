@@ -12,6 +12,9 @@ namespace asterflow {
 
 inline constexpr int morton_levels = 21;  // of a key, three bits each
 
+// Whether they are one array.
+inline bool is_same(ConstPoints a, ConstPoints b) { return a.data() == b.data() && a.size() == b.size(); }
+
 // Cell (x, y, z) of a level's 2^level cells per direction.
 std::uint64_t morton_key(std::uint64_t x, std::uint64_t y, std::uint64_t z);
 int morton_coordinate(std::uint64_t key, int direction);

@@ -62,7 +62,6 @@ class Sample {
   }
 
  private:
-  static bool is_same(ConstPoints a, ConstPoints b) { return a.data() == b.data() && a.size() == b.size(); }
   static std::vector<std::uint64_t> keys(PointArray const& points, RootCube const& cube) {
     std::vector<std::uint64_t> keys;
     for (KeyedIndex const& item : sorted_keys(points, cube)) keys.push_back(item.key);

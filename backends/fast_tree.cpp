@@ -6,7 +6,7 @@ namespace asterflow {
 
 Octree::Octree(ConstPoints sources, ConstPoints targets, OctreeOptions const& options)
     : cube_(sources, targets, options.enlargement), first_level_(options.first_level), sources_(order_points(sources, cube_)) {
-  bool const same = sources.data() == targets.data() && sources.size() == targets.size();
+  bool const same = is_same(sources, targets);
   if (!same) targets_ = order_points(targets, cube_);
   boxes_ = OctreeBoxes(sources_.keys, same ? sources_.keys : targets_.keys, options);
   sources_.keys = {};

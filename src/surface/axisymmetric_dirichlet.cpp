@@ -74,21 +74,24 @@ void AxisymmetricDirichlet::assemble_shells(ModalBoundary const& boundary) {
   });
 }
 
-void AxisymmetricDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<double>>& modes) const {
+template <class Real>
+void AxisymmetricDirichlet::apply(std::vector<Eigen::MatrixX<Real>> const& matrices, ConstPoints boundary_velocity,
+                                  std::vector<ShellMode<Real>>& modes) const {
   std::vector<RingMode> const boundary = analyse_modes(surface_, transform_, boundary_velocity);
   modes.resize(n_mode_);
   parallel_for("AxisymmetricDirichlet::shell_modes", n_mode_,
-               [&](long m) { multiply<double>(matrices_[m], boundary[m], modes[m]); });
+               [&](long m) { multiply<Real>(matrices[m], boundary[m].cast<Real>(), modes[m]); });
+}
+
+void AxisymmetricDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<double>>& modes) const {
+  apply(matrices_, boundary_velocity, modes);
 }
 
 void AxisymmetricDirichlet::shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<float>>& modes) const {
   if (rough_.empty())
     for (int m = 0; m < n_mode_; ++m)
       rough_.push_back(matrices_[m].topRows(shells_above(m, rough_accuracy) * 3 * n_ring_).cast<float>());
-  std::vector<RingMode> const boundary = analyse_modes(surface_, transform_, boundary_velocity);
-  modes.resize(n_mode_);
-  parallel_for("AxisymmetricDirichlet::shell_modes", n_mode_,
-               [&](long m) { multiply<float>(rough_[m], boundary[m].cast<float>(), modes[m]); });
+  apply(rough_, boundary_velocity, modes);
 }
 
 Eigen::Matrix<double, 6, 1> AxisymmetricDirichlet::load(ConstPoints boundary_velocity) const {

@@ -18,6 +18,9 @@ class AxisymmetricDirichlet : public ShellOperator {
   Matrices const& matrices() const override { return matrices_; }
 
  private:
+  template <class Real>
+  void apply(std::vector<Eigen::MatrixX<Real>> const& matrices, ConstPoints boundary_velocity,
+             std::vector<ShellMode<Real>>& modes) const;
   void assemble(double accuracy);
   void assemble_shells(ModalBoundary const& boundary);
   long shells_above(int mode, double size) const;  // up to the last that has an entry above it

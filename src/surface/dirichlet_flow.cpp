@@ -32,9 +32,9 @@ int shell_count(Shape const& shape, Side side, int n_ring, double accuracy) {
 // Half the length of a shape along its polar axis over its largest radius across, at least 1.
 double elongation(Shape const& shape) {
   auto const distance = [&](double theta, double phi) { return norm(shape.point(theta, phi) - shape.centre()); };
-  double const half_pi = 0.5 * std::numbers::pi;
-  double const along = std::max(distance(0.0, 0.0), distance(2.0 * half_pi, 0.0));
-  return std::max(1.0, along / std::max(distance(half_pi, 0.0), distance(half_pi, half_pi)));
+  constexpr double pi = std::numbers::pi, quarter = 0.5 * pi;
+  double const along = std::max(distance(0.0, 0.0), distance(pi, 0.0));
+  return std::max(1.0, along / std::max(distance(quarter, 0.0), distance(quarter, quarter)));
 }
 
 // Orders that a flat shape needs over those of a sphere (a long one has more rings instead), and those that gain no digit yet.
