@@ -36,7 +36,7 @@ def main():
         axis.axhline(effective_sphere, color="black", linewidth=0.8, label="sphere of twice the radius")
         axis.set(yscale="log", xlabel="number of fibers", ylabel=label, title=motion)
         axis.grid(alpha=0.3, which="both")
-    axes[0].legend()
+    axes[0].legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2)
     figure.savefig(sys.argv[2], dpi=160)
 
 

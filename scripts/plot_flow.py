@@ -37,6 +37,17 @@ def fiber_segments(file, axes, normal, offset):
     return segments, strength
 
 
+def continued(field, steps=2):
+    """The field [ny, nx], its points without a value next to others filled with the mean of these, `steps` points deep."""
+    for _ in range(steps):
+        padded = np.pad(field, 1, constant_values=np.nan)
+        around = np.stack([padded[i : i + field.shape[0], j : j + field.shape[1]] for i in range(3) for j in range(3)])
+        known = np.isfinite(around)
+        mean = np.where(known, around, 0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
+        field = np.where(np.isnan(field) & known.any(axis=0), mean, field)
+    return np.ma.masked_invalid(field)
+
+
 def draw_flow(file, axis, figure):
     first, second = file["first"][:], file["second"][:]
     names = file["axes"][()].decode().split()
@@ -48,7 +59,7 @@ def draw_flow(file, axis, figure):
     finite = speed[np.isfinite(speed)]
     top = np.quantile(finite, 0.995) if finite.size and finite.max() > 0 else 1.0
 
-    image = axis.pcolormesh(first, second, speed, cmap="viridis", vmin=0, vmax=top, shading="gouraud", rasterized=True)
+    image = axis.pcolormesh(first, second, continued(speed), cmap="viridis", vmin=0, vmax=top, shading="gouraud", rasterized=True)
     figure.colorbar(image, ax=axis, label="speed in the plane (um/s)", shrink=0.75, pad=0.02)
     if finite.size and finite.max() > 0:
         blank = np.ma.masked_invalid(velocity)
@@ -65,8 +76,8 @@ def draw_flow(file, axis, figure):
     for name, color in (("periphery_distance", "black"), ("body_distance", "black")):
         if name in file:
             distance = file[name][:]
-            if name == "body_distance":
-                axis.contourf(first, second, distance, levels=[-1e9, 0], colors=["0.75"], zorder=3)
+            hidden, shade = ([-1e9, 0], "0.75") if name == "body_distance" else ([0, 1e9], "white")
+            axis.contourf(first, second, distance, levels=hidden, colors=[shade], zorder=2.4)
             axis.contour(first, second, distance, levels=[0], colors=color, linewidths=1.4, zorder=3)
     axis.set(xlim=(first[0], first[-1]), ylim=(second[0], second[-1]), aspect="equal", xlabel=f"{names[0]} (um)",
              ylabel=f"{names[1]} (um)", title=f"{plane} um, t = {file['time'][()]:.4g} s")
