@@ -94,6 +94,12 @@ void AxisymmetricDirichlet::shell_modes(ConstPoints boundary_velocity, std::vect
   apply(rough_, boundary_velocity, modes);
 }
 
+std::size_t AxisymmetricDirichlet::memory() const {
+  std::size_t bytes = ShellOperator::memory();
+  for (auto const& matrix : rough_) bytes += sizeof(float) * static_cast<std::size_t>(matrix.size());
+  return bytes;
+}
+
 Eigen::Matrix<double, 6, 1> AxisymmetricDirichlet::load(ConstPoints boundary_velocity) const {
   ASTERFLOW_REQUIRE(side_ == Side::exterior);
   std::vector<RingMode> const boundary = analyse_modes(surface_, transform_, boundary_velocity);

@@ -16,6 +16,7 @@ class AxisymmetricDirichlet : public ShellOperator {
   void shell_modes(ConstPoints boundary_velocity, std::vector<ShellMode<float>>& modes) const override;
   Eigen::Matrix<double, 6, 1> load(ConstPoints boundary_velocity) const override;
   Matrices const& matrices() const override { return matrices_; }
+  std::size_t memory() const override;
 
  private:
   template <class Real>

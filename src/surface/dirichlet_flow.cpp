@@ -140,9 +140,7 @@ Matrix6 DirichletFlow::resistance() const {
 }
 
 std::size_t DirichletFlow::memory() const {
-  std::size_t bytes = table_.memory() + rough_work_.values.memory();
-  for (auto const& matrix : operator_->matrices()) bytes += sizeof(double) * static_cast<std::size_t>(matrix.size());
-  return bytes;
+  return table_.memory() + rough_work_.values.memory() + operator_->memory();
 }
 
 SphereGrid grid_of_order(Shape const& shape, int order) {

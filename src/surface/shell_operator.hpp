@@ -21,6 +21,11 @@ class ShellOperator {
   // Everything that was computed: what an equal operator can be made of (operator_cache.hpp).
   using Matrices = std::vector<Eigen::MatrixXd>;
   virtual Matrices const& matrices() const = 0;
+  virtual std::size_t memory() const {  // bytes
+    std::size_t numbers = 0;
+    for (auto const& matrix : matrices()) numbers += static_cast<std::size_t>(matrix.size());
+    return sizeof(double) * numbers;
+  }
 };
 
 }  // namespace asterflow
