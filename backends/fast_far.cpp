@@ -68,7 +68,7 @@ void FarField<Real>::place_work(Batch& batch) const {
     long const planes = patch.target_high[2] - patch.target_low[2], rows = patch.target_high[1] - patch.target_low[1];
     batch.grid_begin.push_back(batch.grid_begin.back() + 3 * patch.velocity_row * rows * planes);
     batch.spectrum_begin.push_back(batch.spectrum_begin.back() +
-                                   2L * components_ * patch.nodes[2] * (patch.modes[0] + 1) * patch.spectrum_row);
+                                   2L * components_ * patch.planes * (patch.modes[0] + 1) * patch.spectrum_row);
   }
 }
 

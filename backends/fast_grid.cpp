@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace asterflow {
 namespace {
@@ -66,6 +67,10 @@ PatchView<Real> GridWindow<Real>::view(Patch<Real> const& patch, int lanes) cons
     view.corner[d] = patch.corner[d] + patch.unit_side * (patch.origin[d] + (0.5 * width_ - 1.0) * patch.spacing);
     view.target_low[d] = patch.target_low[d];
     view.target_high[d] = patch.target_high[d];
+    view.source_low[d] = patch.source_low[d];
+    view.source_high[d] = patch.source_high[d];
+    view.used_low[d] = patch.used_low(d);
+    view.used_high[d] = patch.used_high(d);
     view.lines[d] = patch.lines[d];
     view.modes[d] = patch.symbol ? patch.symbol->modes[d] : 0;
   }
@@ -77,13 +82,34 @@ PatchView<Real> GridWindow<Real>::view(Patch<Real> const& patch, int lanes) cons
   view.velocity_row = (patch.target_high[0] - patch.target_low[0] + padded_ + lanes - 1) / lanes * lanes;
   constexpr long line = 64 / static_cast<long>(sizeof(Real));  // of the cache: rows must not share a few sets
   if (view.velocity_row / line % 4 == 0) view.velocity_row += std::max<long>(lanes, line);
-  view.spectrum_row = (patch.nodes[1] + lanes - 1) / lanes * lanes;
+  view.spectrum_row = (view.used_high[1] - view.used_low[1] + lanes - 1) / lanes * lanes;
+  view.planes = std::max(view.used_high[2] - view.used_low[2], std::min(patch.nodes[2], 2 * view.modes[2] + 1));
   view.sources = {patch.sources.index.data(), patch.sources.tile_begin.data()};
   view.targets = {patch.targets.index.data(), patch.targets.tile_begin.data()};
   view.symbol_stride = patch.symbol ? patch.symbol->stride : 0;
   view.band = patch.symbol ? patch.symbol->band : 0.0;
   view.symbol = patch.symbol ? patch.symbol->value.data() : nullptr;
   return view;
+}
+
+template <class Real>
+void GridWindow<Real>::find_reach(Patch<Real> const& patch, PointArray const& points, std::vector<Range> const& ranges,
+                                  int (&low)[3], int (&high)[3]) const {
+  PatchView<Real> const grid = view(patch, 1);
+  for (int d = 0; d < 3; ++d) {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (Range const& range : ranges)
+      for (long i = range.begin; i < range.end; ++i) {
+        lowest = std::min(lowest, points[i][d]);
+        highest = std::max(highest, points[i][d]);
+      }
+    low[d] = high[d] = 0;
+    if (lowest > highest) continue;
+    auto const first = [&](double x) { return static_cast<int>(std::floor((x - grid.corner[d]) * grid.to_nodes)); };
+    low[d] = first(lowest);
+    high[d] = first(highest) + width_;
+    if (low[d] < 0 || high[d] > patch.nodes[d]) low[d] = 0, high[d] = patch.nodes[d];
+  }
 }
 
 template <class Real>
@@ -96,7 +122,7 @@ TiledPoints GridWindow<Real>::tile(Patch<Real> const& patch, PointArray const& p
   for (Range const& range : ranges) n += range.size();
   auto const tile_of = [&](Vec3d const& x, int d, int size, int n_tile) {
     int const first = static_cast<int>(std::floor((x[d] - grid.corner[d]) * grid.to_nodes));
-    return std::min(wrapped(first, patch.nodes[d]) / size, n_tile - 1);
+    return std::min((wrapped(first, patch.nodes[d]) - grid.used_low[d]) / size, n_tile - 1);
   };
   std::vector<int> tiles;
   tiles.reserve(n);

@@ -22,6 +22,11 @@ class GridWindow {
   // What the inner loops need to know of a patch; lanes: numbers in a vector register.
   PatchView<Real> view(Patch<Real> const& patch, int lanes) const;
 
+  // The nodes that the windows of the points of the given ranges meet; in a direction in which one goes beyond the
+  // period all of them.
+  void find_reach(Patch<Real> const& patch, PointArray const& points, std::vector<Range> const& ranges, int (&low)[3],
+                  int (&high)[3]) const;
+
   // Sorts the points of the given ranges into the tiles of the patch.
   TiledPoints tile(Patch<Real> const& patch, PointArray const& points, std::vector<Range> const& ranges) const;
 

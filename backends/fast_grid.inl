@@ -92,10 +92,10 @@ void weights(Real const* coefficients, int degree, Real const (&z)[3], Row<Real,
   sum[0] = x, sum[1] = y, sum[2] = w;
 }
 
-// Nodes of one row of a tile, ghosts that continue the period and padding included.
+// Nodes of one row of a tile, from the first that sources reach; ghosts that continue the period and padding included.
 template <class Real>
 long tile_row(PatchView<Real> const& patch, int padded) {
-  return (patch.nodes[0] + padded + lanes<Real> - 1) / lanes<Real> * lanes<Real>;
+  return (patch.source_high[0] - patch.source_low[0] + padded + lanes<Real> - 1) / lanes<Real> * lanes<Real>;
 }
 
 // From row to row: an odd number of cache lines, or the rows that a point meets would share a few sets of the cache.
@@ -116,14 +116,27 @@ struct TileGrid {
 
   TileGrid(PatchView<Real> const& patch, long tile, int padded, Sum* memory)
       : y(static_cast<int>(tile % patch.tiles_y)), z(static_cast<int>(tile / patch.tiles_y)), grid(memory) {
-    y_begin = y * patch.tile_y;
-    y_end = y + 1 == patch.tiles_y ? patch.nodes[1] : y_begin + patch.tile_y;
-    z_begin = z * patch.tile_z;
-    z_end = z + 1 == patch.tiles_z ? patch.nodes[2] : z_begin + patch.tile_z;
+    y_begin = patch.used_low[1] + y * patch.tile_y;
+    y_end = y + 1 == patch.tiles_y ? patch.used_high[1] : y_begin + patch.tile_y;
+    z_begin = patch.used_low[2] + z * patch.tile_z;
+    z_end = z + 1 == patch.tiles_z ? patch.used_high[2] : z_begin + patch.tile_z;
     row = tile_row(patch, padded);
     stride = tile_stride<Sum>(row);
   }
 };
+
+// body(i) for every source i whose window may meet a tile: those of the tile and of the ones before it.
+template <class Real, class Body>
+void for_sources(PatchView<Real> const& patch, int tile_y, int tile_z, Body const& body) {
+  bool const wraps_y = patch.used_high[1] - patch.used_low[1] == patch.nodes[1];
+  bool const wraps_z = patch.used_high[2] - patch.used_low[2] == patch.nodes[2];
+  for (int dz = 0; dz < smaller(2, patch.tiles_z); ++dz)
+    for (int dy = 0; dy < smaller(2, patch.tiles_y); ++dy) {
+      if ((tile_y < dy && !wraps_y) || (tile_z < dz && !wraps_z)) continue;
+      int const from = wrapped(tile_z - dz, patch.tiles_z) * patch.tiles_y + wrapped(tile_y - dy, patch.tiles_y);
+      for (long k = patch.sources.begin[from]; k < patch.sources.begin[from + 1]; ++k) body(patch.sources.index[k]);
+    }
+}
 
 // Adds the point's strengths f to the nodes of the tile within its window.
 template <class Real, class Sum, int padded, int components>
@@ -156,7 +169,7 @@ void spread_point(WindowView<Real> const& window, PatchView<Real> const& patch, 
     if (z < tile.z_begin || z >= tile.z_end) continue;
     R load_x[components];
     for (int c = 0; c < components; ++c) load_x[c] = weight_x.scaled(static_cast<Sum>(wz[j]) * f[c]);
-    Sum* const plane = tile.grid + (z - tile.z_begin) * stride_z + wrapped(place.first[0], patch.nodes[0]);
+    Sum* const plane = tile.grid + (z - tile.z_begin) * stride_z + wrapped(place.first[0], patch.nodes[0]) - patch.source_low[0];
     for (int m = 0; m < n_y; ++m) {
       Sum* p = plane + offset_y[m];
       for (int c = 0; c < components; ++c, p += tile.stride) {
@@ -172,14 +185,9 @@ template <class Real, class Sum, int padded, int components>
 void spread_rows(WindowView<Real> const& window, PatchView<Real> const& patch, TileGrid<Real, Sum> const& tile,
                  double const* points, Real const* strengths) {
   std::memset(tile.grid, 0, sizeof(Sum) * components * tile.stride * (tile.y_end - tile.y_begin) * (tile.z_end - tile.z_begin));
-  for (int dz = 0; dz < smaller(2, patch.tiles_z); ++dz)
-    for (int dy = 0; dy < smaller(2, patch.tiles_y); ++dy) {
-      int const from = wrapped(tile.z - dz, patch.tiles_z) * patch.tiles_y + wrapped(tile.y - dy, patch.tiles_y);
-      for (long k = patch.sources.begin[from]; k < patch.sources.begin[from + 1]; ++k) {
-        long const i = patch.sources.index[k];
-        spread_point<Real, Sum, padded, components>(window, patch, tile, points + 3 * i, strengths + components * i);
-      }
-    }
+  for_sources(patch, tile.y, tile.z, [&](long i) {
+    spread_point<Real, Sum, padded, components>(window, patch, tile, points + 3 * i, strengths + components * i);
+  });
 }
 
 template <class Real, class Sum, int components>

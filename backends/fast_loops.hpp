@@ -32,14 +32,15 @@ struct TileView {
 };
 
 // A patch, see fast_patch.hpp. Grids of velocity are [z, y, 3, x] over target_low ... target_high, rows of
-// `velocity_row` numbers; the spectrum is [component, z, kx, 2, y], rows of `spectrum_row` numbers.
+// `velocity_row` numbers. The spectrum is [component, plane, kx, 2, y], rows of `spectrum_row` numbers that begin at node
+// used_low[1]; node z is plane z - used_low[2], mode kz < 0 is plane kz + planes.
 template <class Real>
 struct PatchView {
   int nodes[3];
   double corner[3], to_nodes;  // a window at x begins at node floor((x - corner) to_nodes) of the endless grid
   double scale, slope_scale;  // of velocities, and of their slopes per node
   int tile_y, tile_z, tiles_y, tiles_z;
-  int target_low[3], target_high[3];
+  int target_low[3], target_high[3], source_low[3], source_high[3], used_low[3], used_high[3], planes;
   long velocity_row, spectrum_row;
   TileView sources, targets;
   int modes[3];

@@ -34,20 +34,27 @@ struct Patch {
   double scale = 1.0;                // from grid units of velocity to normalised ones
   Vec3d corner;                      // of the root's cube, and its
   double unit_side = 1.0;            // side, as the points have them
-  int tile_y = 16, tile_z = 16;      // nodes of a tile; the last in a direction takes the rest too
-  int tiles_y = 1, tiles_z = 1;
   int target_low[3] = {0, 0, 0};     // nodes from which targets are interpolated
   int target_high[3] = {0, 0, 0};    // one past the last
+  int source_low[3] = {0, 0, 0};     // nodes that sources are spread onto; all where a window goes beyond the period
+  int source_high[3] = {0, 0, 0};
+  int tile_y = 16, tile_z = 16;      // nodes of a tile; the last in a direction takes the rest too
+  int tiles_y = 1, tiles_z = 1;
   TiledPoints sources, targets;
   std::shared_ptr<SymbolTable<Real> const> symbol;
   LineView<Real> lines[3];
 
-  // A window of `width` nodes may begin in one tile and end in the next; small tiles stay in the cache.
+  // Nodes of sources or targets.
+  int used_low(int d) const { return source_low[d] < target_low[d] ? source_low[d] : target_low[d]; }
+  int used_high(int d) const { return source_high[d] > target_high[d] ? source_high[d] : target_high[d]; }
+
+  // Of the used nodes. A window of `width` nodes may begin in one tile and end in the next; small tiles stay in the cache.
   void set_tiles(int edge_y, int width) {
     tile_y = edge_y;
     tile_z = width < 8 ? 8 : width;
-    tiles_y = nodes[1] < tile_y ? 1 : nodes[1] / tile_y;
-    tiles_z = nodes[2] < tile_z ? 1 : nodes[2] / tile_z;
+    int const n_y = used_high(1) - used_low(1), n_z = used_high(2) - used_low(2);
+    tiles_y = n_y < tile_y ? 1 : n_y / tile_y;
+    tiles_z = n_z < tile_z ? 1 : n_z / tile_z;
   }
   long n_tile() const { return static_cast<long>(tiles_y) * tiles_z; }
   long n_node() const { return static_cast<long>(nodes[0]) * nodes[1] * nodes[2]; }

@@ -43,7 +43,6 @@ void FarPatches<Real>::set_grid(Octree const& tree, Patch<Real>& patch, bool is_
   for (int d = 0; d < 3; ++d)
     patch.lines[d] = transforms_.try_emplace(patch.nodes[d], patch.nodes[d]).first->second.view();
   patch.symbol = symbol(patch, is_root);
-  patch.set_tiles(tile_y_, window_.width());
 }
 
 // The whole domain in free space: biharmonic function cut off smoothly at the diameter plus the window,
@@ -59,11 +58,8 @@ void FarPatches<Real>::add_root_patch(Octree const& tree) {
   double const margin = 0.5 * window_.width() + 1.0;
   patch.spacing = spacing;
   patch.origin = Vec3d{-margin, -margin, -margin} * spacing;
-  for (int d = 0; d < 3; ++d) {
+  for (int d = 0; d < 3; ++d)
     patch.nodes[d] = transform_length(static_cast<int>(std::ceil((extent[d] + reach_ + cutoff) / spacing + 2 * margin)));
-    patch.target_low[d] = 0;
-    patch.target_high[d] = std::min(patch.nodes[d], static_cast<int>(std::ceil(extent[d] / spacing + 2.0 * margin)) + 1);
-  }
   set_grid(tree, patch, true);
   patches_.push_back(std::move(patch));
   tile_points(tree, 0, {{{0, static_cast<long>(tree.sources().size())}}}, {{{0, static_cast<long>(tree.targets().size())}}});
@@ -73,6 +69,15 @@ void FarPatches<Real>::add_root_patch(Octree const& tree) {
 template <class Real>
 void FarPatches<Real>::tile_points(Octree const& tree, std::size_t first, std::vector<std::vector<Range>> const& sources,
                                    std::vector<std::vector<Range>> const& targets) {
+  parallel_for("FarPatches::reach", static_cast<long>(2 * sources.size()), [&](long i) {
+    std::size_t const k = i / 2;
+    Patch<Real>& patch = patches_[first + k];
+    if (i % 2 == 0)
+      window_.find_reach(patch, tree.sources(), sources[k], patch.source_low, patch.source_high);
+    else
+      window_.find_reach(patch, tree.targets(), targets[k], patch.target_low, patch.target_high);
+  });
+  for (std::size_t k = first; k < patches_.size(); ++k) patches_[k].set_tiles(tile_y_, window_.width());
   parallel_for("FarPatches::tile_points", static_cast<long>(2 * sources.size()), [&](long i) {
     std::size_t const k = i / 2;
     Patch<Real>& patch = patches_[first + k];
@@ -87,7 +92,6 @@ template <class Real>
 void FarPatches<Real>::add_level_patches(Octree const& tree, int level) {
   double const side = std::ldexp(1.0, -level), spacing = 0.5 * side / parameters_.nodes_per_cutoff;
   double const nodes_per_box = side / spacing;
-  int const margin = window_.width() / 2 + 1;
   auto const& boxes = tree.boxes().refined()[level].boxes();
   std::size_t const n_point = (tree.sources().size() + tree.targets().size()) / 2;
   auto const rectangles = cover(boxes, nodes_per_box, parameters_.max_nodes(n_point));
@@ -100,8 +104,6 @@ void FarPatches<Real>::add_level_patches(Octree const& tree, int level) {
       int const m = rectangles[i].high[d] - rectangles[i].low[d] + 1;
       patch.origin[d] = (rectangles[i].low[d] - 1) * side;
       patch.nodes[d] = transform_length(static_cast<int>(std::ceil((m + 2) * nodes_per_box)));
-      patch.target_low[d] = std::max(0, static_cast<int>(nodes_per_box) - margin);
-      patch.target_high[d] = std::min(patch.nodes[d], static_cast<int>(std::ceil((m + 1) * nodes_per_box)) + margin);
     }
     set_grid(tree, patch, false);
   }
