@@ -3,6 +3,7 @@
 #include "base/polar_directions.hpp"
 #include "base/random.hpp"
 #include "fiber/fiber_basis.hpp"
+#include "fiber/fitted_centreline.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +46,6 @@ void check_points(Table const& table, std::vector<Vec3d> const& points) {
     if (norm(points[i] - points[i - 1]) == 0.0) table.fail("points", "must not repeat a point (um)");
 }
 
-// Any two unit vectors that make a right-handed frame with the unit vector `axis`.
 // Growing and shrinking fibers that turn back at the cortex (b) and are renucleated at their least length (a) have, in
 // the long run, lengths of the density exp(-k l) on [a, b] [Dogterom & Leibler 1993]: chance = its integral from a to l.
 double steady_length(double a, double b, double k, double chance) {
@@ -90,6 +90,13 @@ FiberSpec read_fiber(Table table) {
   check_slenderness(table, fiber.length, fiber.material.radius);
   table.finish();
   return fiber;
+}
+
+PointArray points_along(FiberSpec const& fiber) {
+  constexpr int n_between = 31;
+  if (!fiber.points.empty()) return points_between(fiber.points, n_between);
+  PointArray const ends{fiber.position, fiber.position + fiber.length * fiber.direction};
+  return points_between(ends, n_between);
 }
 
 AsterSpec read_aster(Table table) {

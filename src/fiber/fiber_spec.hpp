@@ -1,6 +1,7 @@
 #pragma once
 // Fibers as a scene describes them: a single one, [[fiber]], or an aster, [[aster]], a centrosome with many.
 
+#include "base/arrays.hpp"
 #include "base/table.hpp"
 #include "fiber/fiber_ends.hpp"
 
@@ -52,6 +53,7 @@ struct AsterSpec {
 };
 
 FiberSpec read_fiber(Table table);
+PointArray points_along(FiberSpec const& fiber);  // um, from minus to plus end, to judge where the fiber lies
 AsterSpec read_aster(Table table);
 
 // Minus end and length of a fiber of an aster.

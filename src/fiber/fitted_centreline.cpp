@@ -32,6 +32,13 @@ struct Spline {
 
   static Eigen::RowVector3d to_row(Vec3d a) { return {a.x, a.y, a.z}; }
 
+  // Between points `next - 1` and `next`, `b` of the way from the one to the other.
+  Vec3d position(std::size_t next, double b) const {
+    std::size_t const i = next - 1;
+    double const h = chord[next] - chord[i], a = 1.0 - b;
+    return a * points[i] + b * points[next] + (h * h / 6) * ((a * a * a - a) * bend[i] + (b * b * b - b) * bend[next]);
+  }
+
   Vec3d slope(double c) const {
     std::size_t const next = std::clamp<std::size_t>(std::upper_bound(chord.begin(), chord.end(), c) - chord.begin(), 1,
                                                      chord.size() - 1),
@@ -63,6 +70,17 @@ Centreline centreline_through(ConstPoints points, int n_node) {
     shape.tangents[j] = normalized(spline.slope((i + (s - arc[i]) / (arc[i + 1] - arc[i])) * piece));
   }
   return shape;
+}
+
+PointArray points_between(ConstPoints points, int n_between) {
+  ASTERFLOW_REQUIRE(points.size() >= 2);
+  Spline const spline(points);
+  PointArray all{points.front()};
+  for (std::size_t next = 1; next < points.size(); ++next) {
+    for (int j = 1; j <= n_between; ++j) all.push_back(spline.position(next, double(j) / (n_between + 1)));
+    all.push_back(points[next]);
+  }
+  return all;
 }
 
 }  // namespace asterflow

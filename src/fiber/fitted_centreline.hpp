@@ -8,4 +8,7 @@ namespace asterflow {
 // `points`: um, from minus to plus end, at least two, all different from their neighbours. The length is the spline's.
 Centreline centreline_through(ConstPoints points, int n_node);
 
+// The given points and, between each two, `n_between` more of the same curve.
+PointArray points_between(ConstPoints points, int n_between);
+
 }  // namespace asterflow

@@ -34,17 +34,8 @@ void check_bodies(SceneTables const& tables, Scene const& scene, PlacedScene con
   }
 }
 
-// Points along the fiber, from minus to plus end.
-PointArray sample(FiberSpec const& fiber) {
-  if (!fiber.points.empty()) return {fiber.points.begin(), fiber.points.end()};
-  constexpr int n = 33;
-  PointArray points;
-  for (int i = 0; i < n; ++i) points.push_back(fiber.position + (fiber.length * i / (n - 1)) * fiber.direction);
-  return points;
-}
-
 void check_fiber(Table const& table, Scene const& scene, FiberSpec const& fiber, PlacedScene const& placed) {
-  for (Vec3d const& x : sample(fiber)) {
+  for (Vec3d const& x : points_along(fiber)) {
     std::string const place = fmt::format("at [{:g}, {:g}, {:g}] um", x.x, x.y, x.z);
     if (placed.periphery && placed.periphery->signed_distance(x) > touching)
       table.fail(fmt::format("reaches outside the periphery {}; move or shorten it", place));

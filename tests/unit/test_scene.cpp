@@ -180,6 +180,10 @@ TEST(Scene, Refuses_a_fiber_through_a_body) {
   EXPECT_EQ(refusal(minimal + "[[fiber]]\nposition = [10, 5, 0]\ndirection = [0, 1, 0]\nbody = \"pnc\"\n"
                               "minus_end = \"clamped\"\n"),
             "accepted");
+  std::string const around = "[[fiber]]\npoints = [[10, 7, 0], [16, 4, 0], [17, -1, 0]]\n";
+  EXPECT_EQ(refusal(minimal + around), "accepted");
+  std::string const through = "[[fiber]]\npoints = [[4, 0, 0], [16, 0, 0]]\n";  // both ends lie beside the body
+  EXPECT_NE(refusal(minimal + through).find("passes through [[body]] #1"), std::string::npos);
 }
 
 TEST(Scene, Refuses_an_aster_without_room) {
