@@ -71,6 +71,8 @@ bool is_position(std::string_view step) {
 void apply_override(Source& source, std::string const& whole) {
   auto const equals = whole.find('=');
   if (equals == std::string::npos || equals == 0) fail_override(source, whole, "must read table.key=value");
+  if (auto const end = whole.find('\n'); end != std::string::npos)  // trajectories keep one override a line
+    fail_override(source, whole.substr(0, end) + " ...", "must be one line");
   std::vector<std::string> steps;
   std::istringstream path(whole.substr(0, equals));
   for (std::string step; std::getline(path, step, '.');) {

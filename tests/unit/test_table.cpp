@@ -109,6 +109,8 @@ TEST(Table, Overrides_are_validated_like_the_file) {
             "scene.toml: --set ball.5.radius=1: there are only 2 (positions count from 0)");
   EXPECT_EQ(message_of([] { read_second_ball(two_balls, {"radius"}); }),
             "scene.toml: --set radius: must read table.key=value");
+  EXPECT_EQ(message_of([] { read_second_ball(two_balls, {"ball.b.list=[1,\n2]"}); }),
+            "scene.toml: --set ball.b.list=[1, ...: must be one line");
 }
 
 TEST(Table, Says_where_the_text_is_not_toml) {
