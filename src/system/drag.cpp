@@ -11,11 +11,16 @@ namespace {
 
 enum class Pull { force, torque };
 
+// Its force and torque alone move it.
 std::size_t studied_body(Scene const& scene) {
-  if (scene.bodies.empty()) throw SceneError(scene.file + ": [drag]: needs a [[body]]");
-  if (!scene.drag.body.empty()) return static_cast<std::size_t>(body_index(scene, scene.drag.body));
-  if (scene.bodies.size() > 1) throw SceneError(scene.file + ": [drag]: body: must name one of the bodies");
-  return 0;
+  auto const refuse = [&](std::string const& what) { throw SceneError(scene.file + ": " + what); };
+  if (scene.bodies.empty()) refuse("[drag]: needs a [[body]]");
+  if (scene.drag.body.empty() && scene.bodies.size() > 1) refuse("[drag]: body: must name one of the bodies");
+  int const body = scene.drag.body.empty() ? 0 : body_index(scene, scene.drag.body);
+  if (scene.bodies[body].motion != BodySpec::Motion::free)
+    refuse("[[body]] \"" + scene.bodies[body].name + "\": motion: must be \"free\" for its drag to be studied");
+  if (scene.background) refuse("[background]: moves bodies without force; a drag is studied in fluid at rest");
+  return static_cast<std::size_t>(body);
 }
 
 // The scene of one point: asters share the fibers evenly, and one load acts.

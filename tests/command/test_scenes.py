@@ -57,6 +57,11 @@ class Scenes(CommandTest):
         scene = SCENES / "sphere.toml"
         self.expect_refusal("drag", scene, "-o", self.folder / "drag", names=["[drag]", "periphery"])
         self.expect_refusal("drag", SCENES / "figure2.toml", "--set", "drag.body=pcn", names=["[drag]", "pcn", "pnc"])
+        local = ("-o", self.folder / "drag", "--set", "drag.levels=['local']")
+        self.expect_refusal("drag", scene, *local, "--set", "background.shear_rate=1", names=["[background]", "at rest"])
+        driven = self.folder / "driven.toml"
+        driven.write_text('[[body]]\nname = "ball"\nshape = "sphere"\nradius = 1\nmotion = "prescribed"\n')
+        self.expect_refusal("drag", driven, *local, names=["ball", "motion", "free"])
 
     def test_the_torque_instability_writes_a_table_and_a_picture(self):
         out = self.folder / "torque"
