@@ -37,6 +37,13 @@ std::optional<NoSlipResidual> no_slip_of(Simulation const& simulation, Frame con
   return no_slip_residual(StoredFlow(simulation.scene(), simulation.flows(), frame));
 }
 
+// A state without flow, at t = 0 or level `local`, still has its objects.
+std::string way_to_look(Simulation const& simulation, std::filesystem::path const& folder) {
+  bool const has_flow = simulation.scene().run.interactions != Interactions::local && simulation.time() > 0.0;
+  return has_flow ? fmt::format("asterflow flow {} --time {:g}", folder.string(), simulation.time())
+                  : fmt::format("asterflow export {}", folder.string());
+}
+
 void print_no_slip(Simulation const& simulation) {
   auto const residual = no_slip_of(simulation, {simulation.time(), simulation.frame()});
   if (!residual) return;
@@ -68,8 +75,8 @@ int simulate(Simulation& simulation, TrajectoryWriter& trajectory, std::filesyst
     } catch (NumericalError const& error) {
       progress.finish();
       if (simulation.time() > stored) store_state(simulation, trajectory);
-      throw NumericalError(fmt::format("{}; the last accepted state is stored, look at it with: asterflow flow {} --time {:g}",
-                                       error.what(), folder.string(), simulation.time()));
+      throw NumericalError(fmt::format("{}; the last accepted state is stored, look at it with: {}", error.what(),
+                                       way_to_look(simulation, folder)));
     }
     if (simulation.time() >= until || caught_signal) {
       store_state(simulation, trajectory);
