@@ -4,7 +4,7 @@ extension), outlines of bodies and periphery.
 
     plot_flow.py FLOW.h5 PICTURE.png
 
-FLOW.h5 is written by `asterflow flow`; docs/flow.md lists its content.
+FLOW.h5 is written by `asterflow flow`; src/command/plane_flow.hpp lists its content.
 """
 
 import sys
@@ -78,7 +78,8 @@ def draw_flow(file, axis, figure):
             distance = file[name][:]
             hidden, shade = ([-1e9, 0], "0.75") if name == "body_distance" else ([0, 1e9], "white")
             axis.contourf(first, second, distance, levels=hidden, colors=[shade], zorder=2.4)
-            axis.contour(first, second, distance, levels=[0], colors=color, linewidths=1.4, zorder=3)
+            if distance.min() < 0 < distance.max():  # else the plane misses it
+                axis.contour(first, second, distance, levels=[0], colors=color, linewidths=1.4, zorder=3)
     axis.set(xlim=(first[0], first[-1]), ylim=(second[0], second[-1]), aspect="equal", xlabel=f"{names[0]} (um)",
              ylabel=f"{names[1]} (um)", title=f"{plane} um, t = {file['time'][()]:.4g} s")
 

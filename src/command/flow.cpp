@@ -3,6 +3,8 @@
 #include "base/error.hpp"
 #include "command/plane_flow.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
@@ -24,6 +26,7 @@ void flow(FlowOptions const& options) {
   PlanePoints grid{parse_plane(options.plane), 0, 0, {}, {}};
   int n_first = 0, n_second = 0;
   parse_grid(options.grid, n_first, n_second);
+  if (std::isnan(options.time)) throw SceneError("--time: must be a number (s)");
   TrajectoryReader const trajectory(options.folder);
   auto const& header = trajectory.header();
   Scene const scene = parse_scene(header.scene_text, header.scene_file, header.overrides);
@@ -32,7 +35,8 @@ void flow(FlowOptions const& options) {
   grid = surrounding(scene, frame, grid.plane);
   grid.n_first = n_first, grid.n_second = n_second;
   if (auto const& w = options.window; !w.empty()) {
-    if (!(w[0] < w[1] && w[2] < w[3])) throw SceneError("--window: must read LEFT RIGHT BOTTOM TOP with LEFT < RIGHT, BOTTOM < TOP (um)");
+    bool const is_finite = std::all_of(w.begin(), w.end(), [](double x) { return std::isfinite(x); });
+    if (!(is_finite && w[0] < w[1] && w[2] < w[3])) throw SceneError("--window: must read LEFT RIGHT BOTTOM TOP with LEFT < RIGHT, BOTTOM < TOP (um)");
     grid.lower[0] = w[0], grid.upper[0] = w[1], grid.lower[1] = w[2], grid.upper[1] = w[3];
   }
   std::string const name = fmt::format("flow_t{:g}_{}{:g}", frame.time, "xyz"[grid.plane.normal], grid.plane.offset);

@@ -363,6 +363,7 @@ class Results(SceneTest):
             fluid = (file["body_distance"][:] > 0) & (file["periphery_distance"][:] < 0)
             self.assertTrue((np.linalg.norm(velocity[fluid], axis=1) < speed).all())
         self.assertTrue(written[1].endswith(".vts"))
+        self.assertEqual(self.expect_done("flow", self.out, "--plane", "z=2.9", "--grid", "11x11").stderr, "")  # no body there
 
     def test_pictures_need_python_but_numbers_do_not(self):
         self.run_scene(CELL, "--set", "run.end_time=0.5")
@@ -376,6 +377,8 @@ class Results(SceneTest):
         self.expect_refusal("flow", self.out, "--plane", "w=0", names=["--plane", "z=VALUE"])
         self.expect_refusal("flow", self.out, "--grid", "10", names=["--grid"])
         self.expect_refusal("flow", self.out, "--time", "0", names=["later --time"])
+        self.expect_refusal("flow", self.out, "--time", "nan", names=["--time"])
+        self.expect_refusal("flow", self.out, "--window", "0", "inf", "0", "1", names=["--window"])
         self.expect_refusal("flow", self.folder / "absent", names=["trajectory.h5"])
 
     def test_export_writes_every_state(self):
