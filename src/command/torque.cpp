@@ -4,6 +4,7 @@
 #include "io/picture.hpp"
 #include "system/torque_instability.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -54,6 +55,11 @@ TurningRates growth_at(Scene const& scene, double angle) {
           scale * (sides[1].continuum.no_sliding - sides[0].continuum.no_sliding)};
 }
 
+std::string_view stability(double growth) {
+  if (std::abs(growth) < 1e-9) return "neutral";  // nothing turns the body, as in a sphere
+  return growth > 0.0 ? "unstable" : "stable";
+}
+
 void draw_curve(TorqueOptions const& options) {
   Scene const scene = read_scene(options.scene, options.overrides);
   std::vector<double> angles;
@@ -65,7 +71,7 @@ void draw_curve(TorqueOptions const& options) {
   for (double const angle : {-90.0, 0.0, 90.0}) {
     auto const growth = growth_at(scene, angle);
     fmt::print("{:>4g} degrees: growth {:+.5g} free sliding, {:+.5g} no sliding: {}\n", angle, growth.free_sliding,
-               growth.no_sliding, growth.no_sliding > 0.0 ? "unstable" : "stable");
+               growth.no_sliding, stability(growth.no_sliding));
   }
   fmt::print("{}\n", table.string());
   if (draw_picture("plot_torque.py", {table.string(), picture.string()})) fmt::print("{}\n", picture.string());

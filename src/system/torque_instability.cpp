@@ -11,7 +11,7 @@
 namespace asterflow {
 namespace {
 
-// One straight fiber, or a direction of the quadrature, in the frame of the body.
+// One straight fiber, or a direction of the quadrature, with the body as the scene turns it.
 struct Ray {
   Vec3d start;      // um, from the body's centre
   Vec3d direction;  // unit
@@ -21,7 +21,7 @@ struct Ray {
 struct Problem {
   Vec3d centre;        // um
   double radius = 0.0;  // um, a
-  double angle = 0.0;  // radians, of the first aster's axis in the frame of the body
+  double angle = 0.0;  // radians, of the first aster's axis in the scene
   std::vector<Ray> continuum, fibers;
   std::shared_ptr<Shape const> periphery;
 };
@@ -77,6 +77,7 @@ Problem problem_of(Scene const& scene) {
   auto const& body = scene.bodies[scene.drag.body.empty() ? 0 : body_index(scene, scene.drag.body)];
   Problem problem;
   problem.centre = body.position;
+  Matrix3 const orientation = body.orientation.toRotationMatrix();
   problem.radius = outer_radius(body.shape);
   problem.periphery = make_shape(scene.periphery->shape);
   int total = 0;
@@ -86,10 +87,16 @@ Problem problem_of(Scene const& scene) {
   for (std::size_t number = 0; number < scene.asters.size(); ++number) {
     auto const& aster = scene.asters[number];
     if (aster.body != body.name || aster.count == 0) continue;
-    if (problem.fibers.empty()) problem.angle = std::atan2(aster.axis.y, aster.axis.x);
+    if (problem.fibers.empty()) {
+      Vec3d const axis = orientation * aster.axis;
+      if (std::hypot(axis.x, axis.y) < 1e-6) refuse("[[aster]]: axis: along z has no angle to the x axis");
+      problem.angle = std::atan2(axis.y, axis.x);
+    }
     add_fibers(scene, aster, number, double(aster.count) / total, problem.fibers);
     add_continuum(aster, double(aster.count) / total, problem.continuum);
   }
+  for (auto* rays : {&problem.fibers, &problem.continuum})
+    for (Ray& ray : *rays) ray.start = orientation * ray.start, ray.direction = orientation * ray.direction;
   return problem;
 }
 

@@ -104,6 +104,19 @@ TEST(TorqueInstability, of_a_nearly_spherical_cell_has_its_closed_form) {
   EXPECT_LT(std::abs(rates.no_sliding), 1e-15);
 }
 
+TEST(TorqueInstability, does_not_depend_on_the_axes_of_the_body) {
+  Scene const scene = scene_of({.semi_axes = {25.0, 15.0, 11.0}});
+  Scene turned = scene;  // the same asters, told in the axes of a body that is turned
+  Eigen::Quaterniond const turn(Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()));
+  turned.bodies[0].orientation = turn;
+  for (auto& aster : turned.asters)
+    for (Vec3d* v : {&aster.position, &aster.axis}) *v = to_vec3(turn.conjugate() * to_eigen(*v));
+  auto const rates = torque_instability(scene, {40.0}).front().continuum;
+  auto const same = torque_instability(turned, {40.0}).front().continuum;
+  EXPECT_NEAR(same.free_sliding, rates.free_sliding, 1e-6 * std::abs(rates.free_sliding));  // of the quadrature
+  EXPECT_NEAR(same.no_sliding, rates.no_sliding, 1e-6 * std::abs(rates.no_sliding));
+}
+
 TEST(TorqueInstability, of_many_fibers_approaches_that_of_ever_more) {
   Scene scene = scene_of({});
   double error_before = 1.0;
@@ -120,6 +133,8 @@ TEST(TorqueInstability, of_many_fibers_approaches_that_of_ever_more) {
 TEST(TorqueInstability, refuses_scenes_without_cell_body_or_fibers) {
   EXPECT_THROW(torque_instability(parse_scene("", "test.toml"), {0.0}), SceneError);
   Scene scene = scene_of({});
+  scene.asters.front().axis = {0.0, 0.0, 1.0};  // no angle to turn by
+  EXPECT_THROW(torque_instability(scene, {0.0}), SceneError);
   for (auto& aster : scene.asters) aster.count = 0;
   EXPECT_THROW(torque_instability(scene, {0.0}), SceneError);
 }
