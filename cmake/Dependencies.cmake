@@ -13,6 +13,9 @@ target_compile_definitions(hdf5::hdf5 INTERFACE H5_USE_110_API)  # the oldest we
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
+if(CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper")  # fmt 9 takes half of its constexpr away there
+  set_property(TARGET fmt::fmt APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS FMT_USE_CONSTEXPR=1)
+endif()
 find_package(spdlog REQUIRED)
 if(ASTERFLOW_BUILD_TESTS)
   find_package(GTest REQUIRED)
