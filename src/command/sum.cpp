@@ -34,9 +34,10 @@ struct SumOptions {
 // Normals become unit vectors; the stresslet is linear in them, so their length moves into the strength.
 void absorb_normal_lengths(PointsFile& points) {
   for (std::size_t i = 0; i < points.normals.size(); ++i) {
-    double const length = norm(points.normals[i]);
+    Vec3d const n = points.normals[i];
+    double const length = std::hypot(n.x, n.y, n.z);  // also of components whose squares overflow
     points.strengths[i] *= length;
-    points.normals[i] = length > 0.0 ? points.normals[i] / length : Vec3d{1.0, 0.0, 0.0};
+    points.normals[i] = length > 0.0 ? n / length : Vec3d{1.0, 0.0, 0.0};
   }
 }
 
@@ -53,11 +54,14 @@ double error_against_reference(SumOptions const& options, PointsFile const& poin
   auto const reference = make_evaluator(options.kernel, {"reference", 1e-15});
   reference->set_points(points.sources, targets, points.normals);
   reference->add_velocity(points.strengths, exact);
+  double largest = 0.0;  // of the exact components: squares of velocities in this unit neither over- nor underflow
+  for (Vec3d const& u : exact) largest = std::max({largest, std::abs(u.x), std::abs(u.y), std::abs(u.z)});
+  double const unit = largest > 0.0 ? largest : 1.0;
   double difference2 = 0.0, exact2 = 0.0;
   for (std::size_t i = 0; i < n_chosen; ++i) {
-    Vec3d const difference = velocity[chosen[i]] - exact[i];
+    Vec3d const difference = (velocity[chosen[i]] - exact[i]) / unit, u = exact[i] / unit;
     difference2 += dot(difference, difference);
-    exact2 += dot(exact[i], exact[i]);
+    exact2 += dot(u, u);
   }
   return exact2 > 0.0 ? std::sqrt(difference2 / exact2) : std::sqrt(difference2);
 }
@@ -68,6 +72,8 @@ void check_output(SumOptions const& options) {
     throw SceneError(options.output + ": is the input file; choose another --output");
   if (std::filesystem::is_directory(options.output, ignored))
     throw SceneError(options.output + ": is a folder; --output must be a file");
+  if (std::filesystem::exists(options.output, ignored) && !std::filesystem::is_regular_file(options.output, ignored))
+    throw SceneError(options.output + ": is a device, which a file would replace; choose another --output");
   auto const folder = std::filesystem::path(options.output).parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
     throw SceneError(options.output + ": the folder " + folder.string() + " does not exist");
@@ -87,6 +93,8 @@ std::vector<double> pressure_of(SumOptions const& options, PointsFile const& poi
 }
 
 void sum(SumOptions const& options) {
+  if (!(options.viscosity > 0.0 && std::isnormal(options.viscosity)))
+    throw SceneError(fmt::format("viscosity: {} must be positive and finite", options.viscosity));
   bool needs_normals = false;
   if (!with_kernel<AllKernels>(options.kernel, [&](auto kernel) { needs_normals = kernel.has_normal; }))
     throw SceneError("kernel: unknown \"" + options.kernel + "\" (known: " + kernel_names() + ")");
@@ -146,9 +154,7 @@ void add_sum_command(CLI::App& program, Action& chosen) {
       ->capture_default_str();
   command->add_option("--accuracy", options->accuracy, "relative L2 error asked for, 1e-15 to 1e-1")
       ->capture_default_str();
-  command->add_option("--viscosity", options->viscosity, "mu, positive")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  command->add_option("--viscosity", options->viscosity, "mu, positive")->capture_default_str();
   command->add_flag("--gradient", options->has_gradient, "write d velocity_i / d x_j at the targets too: gradient [m,3,3]");
   command->add_flag("--pressure", options->has_pressure,
                     "write the pressure at the targets too: pressure [m]; one more sum, to the same accuracy\n"

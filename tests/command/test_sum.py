@@ -123,6 +123,11 @@ class Sum(CommandTest):
         self.assertEqual((line["n"], line["m"], line["kernel"]), (300, 50, "stokeslet"))
         self.assertLess(line["error"], 1e-6)
         self.assertGreater(line["pairs_per_second"], 0)
+        for size in (1e-250, 1e250):  # whose squares are beyond what numbers hold
+            self.write(strengths=size * self.points["strengths"], normals=self.points["normals"] / size)
+            for kernel in ("stokeslet", "stresslet"):
+                line = json.loads(self.sum("--kernel", kernel, "--reference-error").stdout)
+                self.assertLess(line["error"], 1e-6)
 
     def test_accepts_single_precision_and_whole_numbers(self):
         self.write(sources=np.arange(900).reshape(300, 3), strengths=self.points["strengths"].astype("f4"))
@@ -185,7 +190,8 @@ class Sum(CommandTest):
         self.refused("--backend", "magic", names=["magic", "reference"])
         self.refused("--accuracy", "0", names=["accuracy"])
         self.refused("--accuracy", "nan", names=["accuracy"])
-        self.refused("--viscosity", "-1", names=["viscosity"])
+        for viscosity in ("-1", "nan", "inf"):
+            self.refused("--viscosity", viscosity, names=["viscosity", "positive and finite"])
         self.refused("--repeat", "0", names=["repeat"])
         self.refused("--magic", names=["--magic"])
 
@@ -209,6 +215,10 @@ class Sum(CommandTest):
         before = self.input.read_bytes()
         self.expect_refusal("sum", "-i", self.input, "-o", self.input, names=["is the input file"])
         self.assertEqual(self.input.read_bytes(), before)
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        self.expect_refusal("sum", "-i", self.input, "-o", pipe, names=["is a device"])
+        self.assertTrue(pipe.is_fifo())
 
 
 class Program(CommandTest):
