@@ -49,6 +49,8 @@ BodySpec read_body(Table table, std::size_t number) {
   BodySpec body;
   body.name = "body" + std::to_string(number);
   table.read("name", body.name);
+  if (body.name.find_first_of(",\"\n\r") != std::string::npos)
+    table.fail("name", "heads columns of tables: must hold no comma, quote or end of line");
   table.read("position", body.position, any_number, "um");
   table.read("order", body.order, between(4, 96));
   body.shape = read_shape(table);

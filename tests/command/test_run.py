@@ -247,6 +247,7 @@ class BadRun(SceneTest):
             "body.0.raduis=1": ["unknown key", "did you mean", "radius"],
             "fluid.viscosity=0": ["[fluid]", "viscosity = 0", "must be positive"],
             "body.0.order=3": ["order = 3", "from 4 to 96"],
+            "body.0.name='a,b'": ["name = 'a,b'", "comma"],
             "body.0.shape=cube": ["shape", "sphere, ellipsoid, revolution"],
             "fiber.0.nodes=1000": ["[[fiber]] #1", "nodes = 1000"],
             "fiber.0.length=-2": ["length = -2"],
