@@ -62,7 +62,7 @@ void rows_to_lanes(PatchView<Real> const& patch, TileGrid<Real, Sum> const& tile
   for (long x = 0; x < tile.row; x += W) {
     P square[W];
     for (int i = 0; i < W; ++i)
-      square[i] = y0 + i < ny ? load_as<Real>(plane + static_cast<long>(y0 + i) * components * tile.stride + x) : P{};
+      square[i] = y0 + i < ny ? load_as<Real>(plane + static_cast<long>(y0 + i) * components * tile.stride + x) * tile.unit : P{};
     transpose<Real>(square);
     for (int i = 0; i < W; ++i) line[x_low + x + i] = square[i];
   }
@@ -124,13 +124,16 @@ long forward_scratch(WindowView<Real> const& window, PatchView<Real> const& patc
   return 4L * (patch.tile_y * patch.tile_z * components * stride + line_room(patch, row) * lanes<Real>);  // the last tiles are larger
 }
 
+// unit: see TileGrid.
 template <class Real, class Sum>
-void forward_of(WindowView<Real> const& window, PatchView<Real> const& patch, int components, long i_tile,
+void forward_of(WindowView<Real> const& window, PatchView<Real> const& patch, int components, long i_tile, Real unit,
                 double const* points, Real const* strengths, Real* spectrum, Real* scratch) {
   auto* const work = reinterpret_cast<Pack<Real>*>(scratch);
   long const room = line_room(patch, tile_row(patch, window.padded));
   auto* const grid = reinterpret_cast<Sum*>(scratch + 4 * room * lanes<Real>);
-  TileGrid<Real, Sum> const tile(patch, i_tile, window.padded, grid);
+  TileGrid<Real, Sum> tile(patch, i_tile, window.padded, grid);
+  tile.unit = unit;
+  tile.units = 1 / unit;
   bool is_empty = true;
   for_sources(patch, tile.y, tile.z, [&](long) { is_empty = false; });
   if (!is_empty && components == 3) spread<Real, Sum, 3>(window, patch, tile, points, strengths);
@@ -144,13 +147,34 @@ void forward_of(WindowView<Real> const& window, PatchView<Real> const& patch, in
   }
 }
 
+// The unit of whole numbers in which no sum at a tile's nodes goes beyond 32 bits; 0 where the rounding of shares to it
+// would cost the velocity more than 1e-7 (many strengths in one place: measured), or a strength is not finite.
+inline float unit_of_shares(PatchView<float> const& patch, int components, long i_tile, float const* strengths) {
+  constexpr float most_crowded = 4000.0f, most_units = 2.0e9f;  // sums of so many halves are far from 2^31 - 2e9
+  float const crowding = patch.crowding[i_tile];
+  if (crowding > most_crowded) return 0.0f;
+  float largest = 0.0f;
+  bool is_finite = true;
+  for_sources(patch, static_cast<int>(i_tile % patch.tiles_y), static_cast<int>(i_tile / patch.tiles_y), [&](long i) {
+    for (int c = 0; c < components; ++c) {
+      float const size = std::fabs(strengths[i * components + c]);
+      is_finite = is_finite && size < 1e30f;
+      largest = size > largest ? size : largest;
+    }
+  });
+  return is_finite && largest > 1e-25f ? crowding * largest / most_units : 0.0f;
+}
+
 template <class Real>
 void forward(WindowView<Real> const& window, PatchView<Real> const& patch, int components, long tile,
              double const* points, Real const* strengths, Real* spectrum, Real* scratch) {
-  if (window.sums_in_double)
-    forward_of<Real, double>(window, patch, components, tile, points, strengths, spectrum, scratch);
-  else
-    forward_of<Real, Real>(window, patch, components, tile, points, strengths, spectrum, scratch);
+  if (!window.sums_in_double) return forward_of<Real, Real>(window, patch, components, tile, Real(1), points, strengths, spectrum, scratch);
+  if constexpr (sizeof(Real) == 4) {
+    float const unit = unit_of_shares(patch, components, tile, strengths);
+    if (unit > 0.0f)
+      return forward_of<Real, std::int32_t>(window, patch, components, tile, unit, points, strengths, spectrum, scratch);
+  }
+  forward_of<Real, double>(window, patch, components, tile, Real(1), points, strengths, spectrum, scratch);
 }
 
 // Lines along z of one component and kx, for all rows with sources or, back, targets.

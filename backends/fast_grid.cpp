@@ -60,6 +60,17 @@ double GridWindow<Real>::transform(double theta) const {
 }
 
 template <class Real>
+double GridWindow<Real>::largest_weight(int j) const {
+  double const from = j - 0.5 * width_;  // of the middle, where the window is largest, to from + 1
+  return KaiserBessel(shape_).value((from >= 0.0 ? from : from + 1.0 <= 0.0 ? from + 1.0 : 0.0) * 2.0 / width_);
+}
+
+template <class Real>
+int GridWindow<Real>::first_node(PatchView<Real> const& patch, Vec3d const& point, int d) {
+  return wrapped(static_cast<int>(std::floor((point[d] - patch.corner[d]) * patch.to_nodes)), patch.nodes[d]);
+}
+
+template <class Real>
 PatchView<Real> GridWindow<Real>::view(Patch<Real> const& patch, int lanes) const {
   PatchView<Real> view;
   for (int d = 0; d < 3; ++d) {
@@ -84,6 +95,7 @@ PatchView<Real> GridWindow<Real>::view(Patch<Real> const& patch, int lanes) cons
   if (view.velocity_row / line % 4 == 0) view.velocity_row += std::max<long>(lanes, line);
   view.spectrum_row = (view.used_high[1] - view.used_low[1] + lanes - 1) / lanes * lanes;
   view.planes = std::max(view.used_high[2] - view.used_low[2], std::min(patch.nodes[2], 2 * view.modes[2] + 1));
+  view.crowding = patch.crowding.empty() ? nullptr : patch.crowding.data();
   view.sources = {patch.sources.index.data(), patch.sources.tile_begin.data()};
   view.targets = {patch.targets.index.data(), patch.targets.tile_begin.data()};
   view.symbol_stride = patch.symbol ? patch.symbol->stride : 0;
@@ -121,8 +133,7 @@ TiledPoints GridWindow<Real>::tile(Patch<Real> const& patch, PointArray const& p
   long n = 0;
   for (Range const& range : ranges) n += range.size();
   auto const tile_of = [&](Vec3d const& x, int d, int size, int n_tile) {
-    int const first = static_cast<int>(std::floor((x[d] - grid.corner[d]) * grid.to_nodes));
-    return std::min((wrapped(first, patch.nodes[d]) - grid.used_low[d]) / size, n_tile - 1);
+    return std::min((first_node(grid, x, d) - grid.used_low[d]) / size, n_tile - 1);
   };
   std::vector<int> tiles;
   tiles.reserve(n);

@@ -17,10 +17,14 @@ class GridWindow {
   int width() const { return width_; }
   int padded_width() const { return padded_; }  // 8, 12 or 16: one row of the window as vectors
   double transform(double theta) const;         // of the window at wave number theta per node
+  double largest_weight(int j) const;           // of the node `j` after the first
   WindowView<Real> view() const { return {width_, padded_, degree_, coefficients_.data(), sums_in_double_}; }
 
   // What the inner loops need to know of a patch; lanes: numbers in a vector register.
   PatchView<Real> view(Patch<Real> const& patch, int lanes) const;
+
+  // The first node that a point's window meets in direction d, from 0 to the period.
+  static int first_node(PatchView<Real> const& patch, Vec3d const& point, int d);
 
   // The nodes that the windows of the points of the given ranges meet; in a direction in which one goes beyond the
   // period all of them.

@@ -1,6 +1,8 @@
 // Spreading of strengths onto the tiles of a patch's grid, and interpolation from the grid of velocities. The
 // weights of a point are one polynomial per node [Barnett, Magland & af Klinteberg 2019].
 
+#include <type_traits>
+
 namespace asterflow {
 namespace {
 
@@ -106,13 +108,15 @@ long tile_stride(long row) {
 }
 
 // The nodes of one tile: y_begin ... y_end - 1, z_begin ... z_end - 1; its rows begin at `grid`, [z, y, component, x].
-// `Sum` is the type in which strengths add up: in float small shares of many strengths of one sign would be lost.
+// `Sum` is the type in which strengths add up: in float small shares of many strengths of one sign would be lost. Whole
+// numbers lose nothing, where the largest sum is known: shares are multiples of `unit`.
 template <class Real, class Sum>
 struct TileGrid {
   int y, z;  // place of the tile
   int y_begin, y_end, z_begin, z_end;
   long row, stride;  // numbers of a row, and from one to the next
   Sum* grid;
+  Real unit = 1, units = 1;  // of shares, and how many make 1
 
   TileGrid(PatchView<Real> const& patch, long tile, int padded, Sum* memory)
       : y(static_cast<int>(tile % patch.tiles_y)), z(static_cast<int>(tile / patch.tiles_y)), grid(memory) {
@@ -138,11 +142,26 @@ void for_sources(PatchView<Real> const& patch, int tile_y, int tile_z, Body cons
     }
 }
 
+// Adds the shares load * weight to the nodes of a row from p on.
+template <class Share, int padded>
+void add_shares(Row<Share, padded> const& load, Share weight, Share* p) {
+  Row<Share, padded> sum = Row<Share, padded>::from(p);
+  sum.add_product(load, weight);
+  sum.to(p);
+}
+template <int padded>
+void add_shares(Row<float, padded> const& load, float weight, std::int32_t* p) {
+  auto sum = Row<std::int32_t, padded>::from(p);
+  for (int i = 0; i < sum.n_vector; ++i) sum.v[i] += nearest(load.v[i] * weight);
+  sum.to(p);
+}
+
 // Adds the point's strengths f to the nodes of the tile within its window.
 template <class Real, class Sum, int padded, int components>
 void spread_point(WindowView<Real> const& window, PatchView<Real> const& patch, TileGrid<Real, Sum> const& tile,
                   double const* point, Real const* f) {
-  using R = Row<Sum, padded>;
+  using Share = std::conditional_t<std::is_integral_v<Sum>, Real, Sum>;
+  using R = Row<Share, padded>;
   GridPlace<Real> const place(patch, point);
   int const y0 = wrapped(place.first[1], patch.nodes[1]), z0 = wrapped(place.first[2], patch.nodes[2]);
   if (!overlaps(y0, window.width, tile.y_begin, tile.y_end, patch.nodes[1])) return;
@@ -156,7 +175,8 @@ void spread_point(WindowView<Real> const& window, PatchView<Real> const& patch, 
   R const weight_x = R::from(wx);
   long const stride_y = components * tile.stride, stride_z = (tile.y_end - tile.y_begin) * stride_y;
   long offset_y[padded];
-  Sum weight_y[padded];
+  Share weight_y[padded], in_units[components];
+  for (int c = 0; c < components; ++c) in_units[c] = f[c] * tile.units;
   int n_y = 0;
   for (int j = 0; j < window.width; ++j) {
     int const y = wrapped(y0 + j, patch.nodes[1]);
@@ -168,15 +188,11 @@ void spread_point(WindowView<Real> const& window, PatchView<Real> const& patch, 
     int const z = wrapped(z0 + j, patch.nodes[2]);
     if (z < tile.z_begin || z >= tile.z_end) continue;
     R load_x[components];
-    for (int c = 0; c < components; ++c) load_x[c] = weight_x.scaled(static_cast<Sum>(wz[j]) * f[c]);
+    for (int c = 0; c < components; ++c) load_x[c] = weight_x.scaled(static_cast<Share>(wz[j]) * in_units[c]);
     Sum* const plane = tile.grid + (z - tile.z_begin) * stride_z + wrapped(place.first[0], patch.nodes[0]) - patch.source_low[0];
     for (int m = 0; m < n_y; ++m) {
       Sum* p = plane + offset_y[m];
-      for (int c = 0; c < components; ++c, p += tile.stride) {
-        R sum = R::from(p);
-        sum.add_product(load_x[c], weight_y[m]);
-        sum.to(p);
-      }
+      for (int c = 0; c < components; ++c, p += tile.stride) add_shares(load_x[c], weight_y[m], p);
     }
   }
 }

@@ -22,7 +22,7 @@ template <class Real>
 struct WindowView {
   int width = 0, padded = 0, degree = 0;
   Real const* coefficients = nullptr;  // [2, degree + 1, padded]: of the weights, of their slopes per node
-  bool sums_in_double = false;         // strengths add up on the grid in double, whatever it is transformed in
+  bool sums_in_double = false;         // strengths add up on the grid in double or, as exactly, in whole numbers
 };
 
 // Points of a patch by grid tile: indices index[begin[tile]] ... index[begin[tile + 1]].
@@ -43,6 +43,7 @@ struct PatchView {
   int target_low[3], target_high[3], source_low[3], source_high[3], used_low[3], used_high[3], planes;
   long velocity_row, spectrum_row;
   TileView sources, targets;
+  float const* crowding;  // of each tile: no node's sum of weights is larger; null unless strengths add up with care
   int modes[3];
   int symbol_stride;
   double band;

@@ -2,6 +2,7 @@
 // the including file is compiled for. Arithmetic operators are the compiler's vector extension.
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 #if defined(__AVX512F__) || defined(__AVX2__)
@@ -63,6 +64,38 @@ inline Pack<float> load_as(double const* p)
   return v;
 #endif
 }
+
+template <class Real>
+inline Pack<Real> load_as(std::int32_t const* p)
+  requires(sizeof(Real) == 4)
+{
+  typedef std::int32_t Whole __attribute__((vector_size(pack_bytes)));
+  Whole v;
+  std::memcpy(&v, p, pack_bytes);
+  return __builtin_convertvector(v, Pack<float>);
+}
+
+// Whole numbers next to those of a vector of floats.
+typedef std::int32_t Whole4 __attribute__((vector_size(16)));
+typedef float Float4 __attribute__((vector_size(16)));
+inline Whole4 nearest(Float4 x) {
+#if defined(__AVX2__)
+  return (Whole4)_mm_cvtps_epi32((__m128)x);
+#else
+  Float4 const half = {0.5f, 0.5f, 0.5f, 0.5f};
+  return __builtin_convertvector(x < Float4{} ? x - half : x + half, Whole4);
+#endif
+}
+#if defined(__AVX2__)
+typedef std::int32_t Whole8 __attribute__((vector_size(32)));
+typedef float Float8 __attribute__((vector_size(32)));
+inline Whole8 nearest(Float8 x) { return (Whole8)_mm256_cvtps_epi32((__m256)x); }
+#endif
+#if defined(__AVX512F__)
+typedef std::int32_t Whole16 __attribute__((vector_size(64)));
+typedef float Float16 __attribute__((vector_size(64)));
+inline Whole16 nearest(Float16 x) { return (Whole16)_mm512_cvtps_epi32((__m512)x); }
+#endif
 
 template <class Real>
 inline void store(Real* p, Pack<Real> v) {

@@ -6,6 +6,7 @@
 #include "backends/fast_fourier.hpp"
 #include "backends/fast_tree.hpp"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct Patch {
   int tile_y = 16, tile_z = 16;      // nodes of a tile; the last in a direction takes the rest too
   int tiles_y = 1, tiles_z = 1;
   TiledPoints sources, targets;
+  std::vector<float> crowding;       // of each tile, see fast_crowding.hpp; empty unless strengths add up with care
   std::shared_ptr<SymbolTable<Real> const> symbol;
   LineView<Real> lines[3];
 
@@ -55,6 +57,13 @@ struct Patch {
     int const n_y = used_high(1) - used_low(1), n_z = used_high(2) - used_low(2);
     tiles_y = n_y < tile_y ? 1 : n_y / tile_y;
     tiles_z = n_z < tile_z ? 1 : n_z / tile_z;
+  }
+  // y_begin, y_end, z_begin, z_end of one of them.
+  std::array<int, 4> tile_nodes(long tile) const {
+    int const y = static_cast<int>(tile % tiles_y), z = static_cast<int>(tile / tiles_y);
+    int const y_begin = used_low(1) + y * tile_y, z_begin = used_low(2) + z * tile_z;
+    return {y_begin, y + 1 == tiles_y ? used_high(1) : y_begin + tile_y, z_begin,
+            z + 1 == tiles_z ? used_high(2) : z_begin + tile_z};
   }
   long n_tile() const { return static_cast<long>(tiles_y) * tiles_z; }
   long n_node() const { return static_cast<long>(nodes[0]) * nodes[1] * nodes[2]; }

@@ -1,6 +1,7 @@
 #include "backends/fast_patches.hpp"
 
 #include "backends/fast_cover.hpp"
+#include "backends/fast_crowding.hpp"
 #include "backends/fast_kernel.hpp"
 #include "backends/fast_spectrum.hpp"
 #include "base/parallel.hpp"
@@ -86,6 +87,9 @@ void FarPatches<Real>::tile_points(Octree const& tree, std::size_t first, std::v
     else
       patch.targets = tiling_(patch, tree.targets(), targets[k]);
   });
+  if (sizeof(Real) > sizeof(float) || !parameters_.sums_in_double) return;
+  for (std::size_t k = 0; k < sources.size(); ++k)
+    patches_[first + k].crowding = crowding(window_, patches_[first + k], tree.sources(), sources[k]);
 }
 
 template <class Real>

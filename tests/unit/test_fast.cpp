@@ -83,6 +83,14 @@ TEST_P(FastSum, honours_the_accuracy_where_strengths_cancel) {
   for (double accuracy : {1e-3, 1e-6}) EXPECT_LE(error(GetParam(), accuracy, c), 1.5 * accuracy) << accuracy;
 }
 
+TEST_P(FastSum, honours_the_accuracy_of_strengths_of_one_direction_and_of_very_unequal_ones) {
+  PointSet c = point_set(GetParam(), "uniform", 2000);
+  c.strengths.assign(2000, Vec3d{1.0, 0.5, 0.0});
+  EXPECT_LE(error(GetParam(), 1e-6, c), 1e-6);
+  for (std::size_t i = 0; i < 2000; ++i) c.strengths[i] = std::pow(10.0, 0.01 * static_cast<double>(i) - 10.0) * random_vector(static_cast<long>(i), 5);
+  EXPECT_LE(error(GetParam(), 1e-6, c), 1e-6);
+}
+
 TEST_P(FastSum, takes_clusters_far_smaller_than_its_smallest_box) {
   PointSet c = point_set(GetParam(), "uniform", 2000);
   for (std::size_t i = 0; i < 1000; ++i) c.sources[i] = Vec3d{0.1, 0.2, 0.3} + 1e-9 * c.sources[i];
