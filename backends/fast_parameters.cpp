@@ -19,7 +19,7 @@ FastParameters fast_parameters(std::string_view kernel, double accuracy, bool gr
   p.nodes_per_cutoff = p.band / M_PI * oversampling;
   p.width = static_cast<int>(std::ceil(1.15 * digits + 1.09));
   p.window_shape = M_PI * p.width * (1.0 - 0.5 / oversampling);
-  p.local_tolerance = 0.2 * std::pow(10.0, -digits);
+  p.local_tolerance = 0.5 * std::pow(10.0, -digits);
   p.single = digits <= 6.05;
   p.sums_in_double = digits > 4.53;
   p.refinement_steps = p.single ? (digits > 3.53) : (digits > 7.0);

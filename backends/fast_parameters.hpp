@@ -15,7 +15,7 @@ struct FastParameters {
   double window_shape;      // its c
   double local_tolerance;   // of the polynomials of the local part
   bool single;              // pairs in float, and grids but for the sums of strengths on them
-  bool sums_in_double;      // of strengths on the grids
+  bool sums_in_double;      // of strengths on the grids, see fast_loops.hpp
   int refinement_steps;     // of the reciprocal square root, beyond the first for double
 
   bool gradient = false;      // whether gradients will be asked for
