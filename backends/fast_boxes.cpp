@@ -72,8 +72,8 @@ std::vector<std::vector<Box>> refine(BoxMaker const& make, OctreeOptions const& 
   for (int level = 0; level < OctreeBoxes::max_level && !boxes.empty(); ++level) {
     std::vector<Box> refined, children;
     for (Box const& box : boxes) {
-      if (level >= options.first_level && box.sources.size() + box.targets.size() <= 2 * options.capacity) continue;
-      if (make.is_one_place(box)) continue;
+      bool const is_leaf = box.sources.size() + box.targets.size() <= 2 * options.capacity || make.is_one_place(box);
+      if (level >= options.first_level && is_leaf) continue;
       refined.push_back(box);
       make.add_children(box, level + 1, children);
     }
