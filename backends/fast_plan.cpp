@@ -175,19 +175,19 @@ Plan best_first_level(Sample::Ordered const& points, long capacity, FastParamete
   };
   double const near_of_tree = near(tree);
   int const n_level = static_cast<int>(tree.refined().size());
+  std::vector<double> deeper(n_level + 1, 0.0);  // levels from each on
+  for (int l = n_level - 1; l >= 0; --l) deeper[l] = deeper[l + 1] + level(tree, l);
   Plan best;
-  double deeper = 0.0;  // levels from `first` on
-  for (int first = n_level; first >= 0; --first) {
-    if (first < n_level) deeper += level(tree, first);
+  for (int first = 0; first <= std::min(n_level, deepest_first); ++first) {
     Grid const root = root_grid(points.extent, p, first);
-    if (first > deepest_first || root.kept() > 2.0 * max_nodes) continue;
     double cost = c.node * root.swept() + c.point * points.n();
+    if (root.kept() > 2.0 * max_nodes || (best.cost > 0.0 && cost > best.cost)) continue;
     if (has_leaf_above(tree, first)) {
       OctreeBoxes const refined = points.boxes(capacity, first);
       cost += near(refined);
       for (int l = first; l < static_cast<int>(refined.refined().size()); ++l) cost += level(refined, l);
     } else {
-      cost += near_of_tree + deeper;
+      cost += near_of_tree + deeper[first];
     }
     if (best.cost == 0.0 || cost < best.cost) best = {{capacity, first}, cost};
   }
