@@ -148,7 +148,7 @@ void forward_of(WindowView<Real> const& window, PatchView<Real> const& patch, in
 }
 
 // The unit of whole numbers in which no sum at a tile's nodes goes beyond 32 bits; 0 where the rounding of shares to it
-// would cost the velocity more than 1e-7 (many strengths in one place: measured), or a strength is not finite.
+// would cost the velocity more than 1.3e-7 (many strengths in one place; fitted), or a strength is not finite.
 inline float unit_of_shares(PatchView<float> const& patch, int components, long i_tile, float const* strengths) {
   constexpr float most_crowded = 4000.0f, most_units = 2.0e9f;  // sums of so many halves are far from 2^31 - 2e9
   float const crowding = patch.crowding[i_tile];

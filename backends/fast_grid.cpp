@@ -91,8 +91,8 @@ PatchView<Real> GridWindow<Real>::view(Patch<Real> const& patch, int lanes) cons
   view.tile_y = patch.tile_y, view.tile_z = patch.tile_z;
   view.tiles_y = patch.tiles_y, view.tiles_z = patch.tiles_z;
   view.velocity_row = (patch.target_high[0] - patch.target_low[0] + padded_ + lanes - 1) / lanes * lanes;
-  constexpr long line = 64 / static_cast<long>(sizeof(Real));  // of the cache: rows must not share a few sets
-  if (view.velocity_row / line % 4 == 0) view.velocity_row += std::max<long>(lanes, line);
+  constexpr long line = 64 / static_cast<long>(sizeof(Real));  // of the cache: an odd number of them, as in a tile
+  if (view.velocity_row / line % 2 == 0) view.velocity_row += std::max<long>(lanes, line);
   view.spectrum_row = (view.used_high[1] - view.used_low[1] + lanes - 1) / lanes * lanes;
   view.planes = std::max(view.used_high[2] - view.used_low[2], std::min(patch.nodes[2], 2 * view.modes[2] + 1));
   view.crowding = patch.crowding.empty() ? nullptr : patch.crowding.data();
