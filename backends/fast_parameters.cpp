@@ -14,7 +14,7 @@ FastParameters fast_parameters(std::string_view kernel, double accuracy, bool gr
   constexpr double oversampling = 1.35;
   FastParameters p{};
   p.accuracy = accuracy;
-  p.split_shape = kernel == "stokeslet" ? 2.42 * digits + 3.4 : 2.5 * digits + 3.4;
+  p.split_shape = kernel == "stokeslet" ? 2.42 * digits + 3.4 : 2.5 * digits + (kernel == "rotlet" ? 3.65 : 3.4);
   p.band = p.split_shape;
   p.nodes_per_cutoff = p.band / M_PI * oversampling;
   p.width = static_cast<int>(std::ceil(1.15 * digits + 1.09));
