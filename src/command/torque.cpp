@@ -31,7 +31,10 @@ void write_curve(fs::path const& path, std::vector<TorquePoint> const& points) {
     file << fmt::format("{:.8g},{:.12g},{:.12g},{:.12g},{:.12g}\n", p.angle, p.continuum.free_sliding,
                         p.continuum.no_sliding, p.fibers.free_sliding, p.fibers.no_sliding);
   file.close();
-  if (!file) throw SceneError(path.string() + ": cannot be written; is the disk full or the folder protected?");
+  if (file) return;
+  std::error_code ignored;
+  fs::remove(path, ignored);  // a part of it would stand in the way of the next attempt
+  throw SceneError(path.string() + ": cannot be written; is the disk full or the folder protected?");
 }
 
 fs::path prepare_folder(TorqueOptions const& options) {

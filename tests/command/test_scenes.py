@@ -1,6 +1,7 @@
 """Every scene of the repository is valid and runs, shortened; so does the drag study."""
 
 import csv
+import resource
 import unittest
 from pathlib import Path
 
@@ -66,6 +67,8 @@ class Scenes(CommandTest):
     def test_the_torque_instability_writes_a_table_and_a_picture(self):
         out = self.folder / "torque"
         scene = SCENES / "torque_instability.toml"
+        self.expect_refusal("torque", scene, "-o", out, "--angles", 5, names=["torque.csv", "cannot be written"],
+                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100)))  # a full disk
         printed = self.expect_done("torque", scene, "-o", out, "--angles", 5).stdout
         self.assertEqual([line.split()[-1] for line in printed.splitlines()[:3]], ["unstable", "stable", "unstable"])
         with open(out / "torque.csv", newline="") as file:
