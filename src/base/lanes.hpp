@@ -22,12 +22,12 @@ Lanes<Real> dot(Vec3<Real> a, LanesOfVectors<Real> const& r) {
   return a.x * r.x + a.y * r.y + a.z * r.z;
 }
 
-// points[first ... first + count - 1], the last one repeated.
+// points[first ... first + count - 1] from `origin`, the last one repeated.
 template <class Real>
-LanesOfVectors<Real> gather(ConstPoints points, long first, long count) {
+LanesOfVectors<Real> gather(ConstPoints points, long first, long count, Vec3d origin = {}) {
   LanesOfVectors<Real> x;
   for (int i = 0; i < n_lane<Real>; ++i) {
-    Vec3d const point = points[first + std::min<long>(i, count - 1)];
+    Vec3d const point = points[first + std::min<long>(i, count - 1)] - origin;
     x.x[i] = Real(point.x), x.y[i] = Real(point.y), x.z[i] = Real(point.z);
   }
   return x;

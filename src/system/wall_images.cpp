@@ -14,14 +14,15 @@ namespace {
 
 constexpr double negligible = 1e-3;  // nearness
 constexpr double closest = 1e-3;     // least distance over w: forces may lie on the wall
+constexpr double merging = 0.5;      // distance of images that merge, over that from the wall
 
-// velocity += the flow of all images, in vector lanes of targets.
+// velocity += the flow of all images, in vector lanes of targets. Images have their places from `origin`.
 template <class Real, class Image>
-void add_flows(char const* label, std::vector<Image> const& images, ConstPoints targets, Points velocity) {
+void add_flows(char const* label, std::vector<Image> const& images, Vec3d origin, ConstPoints targets, Points velocity) {
   auto const n = static_cast<long>(targets.size());
   parallel_for(label, (n + n_lane<Real> - 1) / n_lane<Real>, [&](long block) {
     long const first = block * n_lane<Real>, count = std::min(n_lane<Real>, n - first);
-    auto const x = gather<Real>(targets, first, count);
+    auto const x = gather<Real>(targets, first, count, origin);
     LanesOfVectors<Real> u;
     for (Image const& image : images) image.add(x, u);
     add_lanes(Stokeslet::prefactor, u, first, count, velocity);
@@ -60,6 +61,43 @@ void WallImages::place(RigidPose const& pose, ConstPoints positions, ConstVector
                [](Image const& image) { return image.nearness > negligible; });
   if (screened_)
     for (Image const& image : images_) places_.push_back(screened_->locate(image.direction, image.depth));
+  merge();
+}
+
+// The last image of the same fiber, without a gap, that is close to `first` for all from there on.
+std::size_t WallImages::last_to_merge(std::size_t first) const {
+  std::size_t last = first;
+  double nearest = images_[first].distance;
+  while (last + 1 < images_.size() && images_[last + 1].source == images_[last].source + 1 &&
+         images_[last + 1].first == images_[first].first) {
+    nearest = std::min(nearest, images_[last + 1].distance);
+    if (norm(images_[last + 1].position - images_[first].position) > merging * nearest) break;
+    ++last;
+  }
+  return last;
+}
+
+// Those in between give their forces to the two ends, in parts that keep the centre of the force.
+void WallImages::merge() {
+  merged_.clear();
+  shares_.clear();
+  for (std::size_t first = 0; first < images_.size();) {
+    std::size_t const last = last_to_merge(first);
+    if (shares_.size() == first) {
+      merged_.push_back(first);
+      shares_.push_back({{merged_.size() - 1, merged_.size() - 1}, 0.0});
+    }
+    if (last == first) {
+      ++first;
+      continue;
+    }
+    merged_.push_back(last);
+    Vec3d const between = images_[last].position - images_[first].position;
+    for (std::size_t i = first + 1; i <= last; ++i)
+      shares_.push_back({{merged_.size() - 2, merged_.size() - 1},
+                         dot(images_[i].position - images_[first].position, between) / dot(between, between)});
+    first = last;
+  }
 }
 
 WallImages::Moments WallImages::moments(ConstPoints strengths) const {
@@ -90,27 +128,35 @@ void WallImages::add_centre(ConstPoints strengths, ConstPoints targets, Points v
 }
 
 template <class Real>
-void WallImages::add_plane_images(ConstPoints strengths, ConstPoints targets, Points velocity) const {
+void WallImages::add_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const {
   if (images_.empty()) return;
   if (wall_.is_body()) add_centre(strengths, targets, velocity);
   std::vector<PlaneImage<Real>> images;
   for (Image const& image : images_)
-    images.emplace_back(image.nearness * strengths[image.source], image.foot, image.normal, image.distance);
-  add_flows<Real>("WallImages::plane", images, targets, velocity);
-}
-
-template <class Real>
-void WallImages::add_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const {
-  add_plane_images<Real>(strengths, targets, velocity);
+    images.emplace_back(image.nearness * strengths[image.source], image.foot - centre_, image.normal, image.distance);
+  add_flows<Real>("WallImages::plane", images, centre_, targets, velocity);
   if (!wall_.has_curvature()) return;
-  std::vector<CurvatureImage<float>> images;  // a small part, to first order: float is enough
+  std::vector<CurvatureImage<float>> bent;  // a small part, to first order: float is enough
   for (Image const& image : images_)
-    images.emplace_back(image.nearness * strengths[image.source], image.foot, image.normal, image.distance, image.shape);
-  add_flows<float>("WallImages::curvature", images, targets, velocity);
+    bent.emplace_back(image.nearness * strengths[image.source], image.foot - centre_, image.normal, image.distance, image.shape);
+  add_flows<float>("WallImages::curvature", bent, centre_, targets, velocity);
 }
 
 void WallImages::add_rough_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const {
-  add_plane_images<float>(strengths, targets, velocity);
+  if (images_.empty()) return;
+  if (wall_.is_body()) add_centre(strengths, targets, velocity);
+  PointArray forces(merged_.size());
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    Vec3d const force = images_[i].nearness * strengths[images_[i].source];
+    forces[shares_[i].to[0]] += (1.0 - shares_[i].second) * force;
+    forces[shares_[i].to[1]] += shares_[i].second * force;
+  }
+  std::vector<PlaneImage<float>> images;
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    Image const& image = images_[merged_[k]];
+    images.emplace_back(forces[k], image.foot - centre_, image.normal, image.distance);
+  }
+  add_flows<float>("WallImages::merged", images, centre_, targets, velocity);
 }
 
 template void WallImages::add_velocity<double>(ConstPoints, ConstPoints, Points) const;

@@ -36,12 +36,12 @@ class WallImages {
   void place(RigidPose const& pose, ConstPoints positions, ConstVector weights, std::vector<std::size_t> const& first);
 
   std::size_t size() const { return images_.size(); }
-  std::size_t memory() const { return images_.capacity() * sizeof(Image); }  // bytes
+  std::size_t memory() const { return images_.capacity() * (sizeof(Image) + sizeof(Share)); }  // bytes
 
   // velocity [n_target] += flow of the images of `strengths` [n], pN over viscosity, at points in the fluid. Real: double or float.
   template <class Real>
   void add_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const;
-  // The same of plane images in single precision: for the inside of a preconditioner.
+  // The same of plane images in single precision, close neighbours merged: for the inside of a preconditioner.
   void add_rough_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const;
   // velocity [node] += flow of the images at the wall's own nodes, and of the forces what projection changes of its samples.
   void add_velocity_at_wall(ConstPoints strengths, ConstPoints wall_nodes, Points velocity) const;
@@ -61,19 +61,26 @@ class WallImages {
     double distance;  // d, um
     double resolved;  // max(d, w / 2), um
   };
+  // Where the force of an image goes when neighbours on a fiber merge: in parts to two that stay.
+  struct Share {
+    std::size_t to[2];  // in merged_
+    double second;      // part
+  };
   struct Moments {  // of images about the centre, over viscosity
     Vec3d force;    // um^2/s
     Matrix3 first = Matrix3::Zero();  // position x force, um^3/s
   };
 
-  template <class Real>
-  void add_plane_images(ConstPoints strengths, ConstPoints targets, Points velocity) const;
+  void merge();
+  std::size_t last_to_merge(std::size_t first) const;
   Moments moments(ConstPoints strengths) const;
   void add_centre(ConstPoints strengths, ConstPoints targets, Points velocity) const;
 
   ImageWall wall_;
-  Vec3d centre_;  // um, of a body
+  Vec3d centre_;  // um, of the wall
   std::vector<Image> images_;
+  std::vector<std::size_t> merged_;  // those of images_ that stay when neighbours merge
+  std::vector<Share> shares_;        // [image]
   std::shared_ptr<ScreenedForces const> screened_;
   std::vector<TablePoint> places_;  // [image]
 };

@@ -41,8 +41,10 @@ TEST(CloseNodes, Flow_and_its_slope_are_continuous_where_the_stokeslet_is_joined
 
 TEST(CloseNodes, Flow_is_bounded_and_along_the_force_where_two_nodes_coincide) {
   Vec3d const f{1.0 / 3, 2.0 / 3, 2.0 / 3};
-  for (double const x : {0.0, 1e-9, 1e-6})
-    EXPECT_LT(norm(flow_at({x, 0, 0}, 0.8) - (Stokeslet::prefactor * 1.5 / 0.2) * f), 1e-8);
+  for (double const x : {0.0, 1e-9, 1e-6}) {
+    double const cancelled = x > 0.0 ? Stokeslet::prefactor / x : 0.0;  // two flows of this size, rounded
+    EXPECT_LT(norm(flow_at({x, 0, 0}, 0.8) - (Stokeslet::prefactor * 1.5 / 0.2) * f), 1e-10 + 4e-16 * cancelled);
+  }
 }
 
 TEST(CloseNodes, All_close_pairs_of_different_fibers_are_found_and_no_others) {

@@ -59,6 +59,31 @@ TEST(WallImages, of_a_fiber_act_on_it_from_no_closer_than_it_is_resolved) {
   EXPECT_LT(norm(felt[0] - expected[0]), 1e-6 * norm(expected[0]));
 }
 
+TEST(WallImages, merge_for_a_rough_flow_far_from_the_origin) {
+  ShapeSpec spec;
+  spec.kind = ShapeSpec::Kind::sphere;
+  spec.radius = 300;
+  Surface const wall(make_shape(spec), 8);  // nodes 100 um apart
+  WallImages images(ImageWall(wall, Side::interior, false));
+  RigidPose pose;
+  pose.position = {7e5, -3e5, 1e5};
+  Vec3d const at_wall = pose.position + Vec3d{300, 0, 0};
+  PointArray positions, strengths, targets;
+  for (int i = 0; i < 32; ++i) {
+    positions.push_back(at_wall + Vec3d{-0.2 - 0.25 * i, 0.1 * i, 0});
+    strengths.push_back({0.3 + 0.02 * i, 1.0 - 0.001 * i * i, std::sin(0.1 * i)});
+  }
+  for (double const z : {0.5, 1.0, 2.0, 5.0, 20.0}) targets.push_back(at_wall + Vec3d{-z, 0.1, 0.7 * z});
+  images.place(pose, positions, std::vector(32, 0.25), {0, 32});
+  PointArray exact(targets.size()), rough(targets.size());
+  images.add_velocity<double>(strengths, targets, exact);
+  images.add_rough_velocity(strengths, targets, rough);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    EXPECT_LT(norm(rough[i] - exact[i]), 0.02 * norm(exact[i])) << i;
+    EXPECT_GT(norm(rough[i] - exact[i]), 1e-5 * norm(exact[i])) << i;  // fewer images
+  }
+}
+
 TEST(WallImages, are_not_made_of_distant_forces) {
   auto const flow = cell(20);
   WallImages images(ImageWall(flow->surface(), Side::interior, false));
