@@ -25,9 +25,9 @@ class PlaneImage {
     Lanes<Real> const twice = (d_ + d_) * s3, along_a = (d_ - r_e) * twice;
     Lanes<Real> const along_r = s3 * (twice_d_f_e_ - r_f) - (Real(3) * s2) * (along_a * r_a);
     Lanes<Real> const along_f = along_a - s, along_e = r_a * twice - twice_f_e_ * along_a;
-    u.x += along_r * r.x + f_.x * along_f + e_.x * along_e;
-    u.y += along_r * r.y + f_.y * along_f + e_.y * along_e;
-    u.z += along_r * r.z + f_.z * along_f + e_.z * along_e;
+    u.x = r.x * along_r + (f_.x * along_f + (e_.x * along_e + u.x));
+    u.y = r.y * along_r + (f_.y * along_f + (e_.y * along_e + u.y));
+    u.z = r.z * along_r + (f_.z * along_f + (e_.z * along_e + u.z));
   }
 
  private:
