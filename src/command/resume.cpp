@@ -56,6 +56,7 @@ void resume(ResumeOptions const& options) {
     return;
   }
   int signal = 0;
+  catch_signals();
   {
     auto trajectory = TrajectoryWriter::resume(options.folder);
     Simulation simulation(scene);

@@ -25,6 +25,7 @@ void run(RunOptions const& options) {
   std::filesystem::path folder = options.folder;
   if (folder.empty()) folder = std::filesystem::path(options.scene).stem().string() + "-results";
   int signal = 0;
+  catch_signals();
   {
     auto trajectory = TrajectoryWriter::create(folder, {scene.text, std::filesystem::absolute(options.scene).string(),
                                                         scene.overrides, all_versions(), scene.run.seed});

@@ -61,14 +61,23 @@ void store_state(Simulation const& simulation, TrajectoryWriter& trajectory) {
   trajectory.append(std::move(frame), simulation.restart());
 }
 
+void catch_signals() {
+  std::signal(SIGINT, note_signal);
+  std::signal(SIGTERM, note_signal);
+}
+
 int simulate(Simulation& simulation, TrajectoryWriter& trajectory, std::filesystem::path const& folder) {
   auto const& scene = simulation.scene();
   double const end_time = scene.run.end_time;
-  std::signal(SIGINT, note_signal);
-  std::signal(SIGTERM, note_signal);
   Progress progress(simulation.time(), end_time);
   double stored = simulation.time();
   while (simulation.time() < end_time) {
+    if (int const signal = caught_signal) {
+      progress.finish();
+      if (simulation.time() > stored) store_state(simulation, trajectory);
+      fmt::print(stderr, "stopped at t = {:g} s; go on with: asterflow resume {}\n", simulation.time(), folder.string());
+      return signal;
+    }
     double const until = next_output(simulation.time(), scene.output.interval, end_time);
     try {
       progress.show(simulation.step(until));
@@ -78,14 +87,9 @@ int simulate(Simulation& simulation, TrajectoryWriter& trajectory, std::filesyst
       throw NumericalError(fmt::format("{}; the last accepted state is stored, look at it with: {}", error.what(),
                                        way_to_look(simulation, folder)));
     }
-    if (simulation.time() >= until || caught_signal) {
+    if (simulation.time() >= until) {
       store_state(simulation, trajectory);
       stored = simulation.time();
-    }
-    if (int const signal = caught_signal) {
-      progress.finish();
-      fmt::print(stderr, "stopped at t = {:g} s; go on with: asterflow resume {}\n", stored, folder.string());
-      return signal;
     }
   }
   progress.finish();
