@@ -162,6 +162,15 @@ def minutes(seconds, table=None):
     return f"not within {table['time'][-1] / 60:.1f} min" if table else "not reached"
 
 
+def drift_speed(table, seconds, start=0.0):
+    """Mean speed of the PNC (um/s) from its displacements in so many seconds, from `start` (s) on."""
+    place = np.stack([table["pnc_x"], table["pnc_y"], table["pnc_z"]], axis=1)
+    first = np.flatnonzero((table["time"] >= start) & (table["time"] + seconds <= table["time"][-1]))
+    last = np.searchsorted(table["time"], table["time"][first] + seconds)
+    moved = np.linalg.norm(place[last] - place[first], axis=1) / (table["time"][last] - table["time"][first])
+    return float(moved.mean()) if len(moved) else float("nan")
+
+
 def mean_over(table, column, start=0.0, end=np.inf):
     """Mean of a column over the states from `start` to `end` (s), without those where it is not a number."""
     chosen = table[column][(table["time"] >= start) & (table["time"] <= end)]
