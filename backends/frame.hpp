@@ -60,7 +60,8 @@ void put_coordinates(Real* out, long stride, Vec3d x, Frame const& frame) {
 inline double strength_unit(ConstPoints strengths) {
   double largest = 0.0;
   for (Vec3d const& q : strengths) largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
-  return largest > 0.0 && std::isfinite(largest) ? std::exp2(std::ilogb(largest)) : 1.0;
+  constexpr int least = -1022;  // of the normal numbers, whose inverses are finite
+  return largest > 0.0 && std::isfinite(largest) ? std::exp2(std::max(std::ilogb(largest), least)) : 1.0;
 }
 
 }  // namespace asterflow

@@ -6,6 +6,7 @@
 #include "io/picture.hpp"
 #include "io/scene_geometry.hpp"
 #include "io/vtk_file.hpp"
+#include "io/whole_file.hpp"
 #include "system/stored_flow.hpp"
 
 #include <algorithm>
@@ -114,9 +115,11 @@ std::vector<std::filesystem::path> write_plane_flow(PlaneFlow const& flow, Frame
                                                     std::filesystem::path const& prefix) {
   std::filesystem::path const numbers = prefix.string() + ".h5", grid = prefix.string() + ".vts",
                               picture = prefix.string() + ".png";
-  write_numbers(flow, frame, numbers);
-  write_vts(grid, {flow.grid.n_first, flow.grid.n_second, flow.grid.points(),
-                   {NamedArray::of("velocity", flow.velocity, "um/s")}});
+  write_whole(numbers, [&](std::filesystem::path const& part) { write_numbers(flow, frame, part); });
+  write_whole(grid, [&](std::filesystem::path const& part) {
+    write_vts(part, {flow.grid.n_first, flow.grid.n_second, flow.grid.points(),
+                     {NamedArray::of("velocity", flow.velocity, "um/s")}});
+  });
   std::vector<std::filesystem::path> written{numbers, grid};
   if (draw_picture("plot_flow.py", {numbers.string(), picture.string()})) written.push_back(picture);
   return written;

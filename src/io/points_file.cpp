@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "io/array_file.hpp"
+#include "io/whole_file.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -44,8 +45,7 @@ PointsFile read_points_file(std::string const& path, bool needs_normals) {
 }
 
 void write_sums(std::string const& path, ConstPoints velocity, ConstPoints gradient, std::vector<double> const& pressure) {
-  std::string const part = path + ".part";
-  try {
+  write_whole(path, [&](std::filesystem::path const& part) {
     ArrayFile file(part, ArrayFile::Mode::create);
     file.write(NamedArray::of("velocity", velocity, "um/s"));
     if (!gradient.empty()) {
@@ -55,12 +55,7 @@ void write_sums(std::string const& path, ConstPoints velocity, ConstPoints gradi
     }
     if (!pressure.empty()) file.write(NamedArray::of("pressure", pressure, "Pa"));
     file.close();
-    std::filesystem::rename(part, path);
-  } catch (std::exception const&) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw;
-  }
+  });
 }
 
 }  // namespace asterflow

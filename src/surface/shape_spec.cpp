@@ -7,6 +7,11 @@ namespace asterflow {
 
 namespace {
 
+// Sizes whose squares and cubes are normal numbers, um.
+void check_size(Table const& table, std::string_view key, double size) {
+  if (size < 1e-50 || size > 1e50) table.fail(key, "must be from 1e-50 to 1e50 (um)");
+}
+
 void check_profile(Table const& table, std::vector<std::array<double, 2>> const& profile) {
   if (profile.size() < 3) table.fail("profile", "must have at least 3 points [x, distance from the x axis] (um)");
   if (profile.front()[1] != 0.0 || profile.back()[1] != 0.0)
@@ -30,10 +35,12 @@ ShapeSpec read_shape(Table& table) {
     case Kind::sphere:
       table.require("radius");
       table.read("radius", shape.radius, positive, "um");
+      check_size(table, "radius", shape.radius);
       break;
     case Kind::ellipsoid:
       table.require("semi_axes");
       table.read("semi_axes", shape.semi_axes, positive, "um");
+      for (double const semi_axis : shape.semi_axes) check_size(table, "semi_axes", semi_axis);
       break;
     case Kind::revolution:
       table.require("profile");

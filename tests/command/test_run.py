@@ -243,6 +243,7 @@ class BadRun(SceneTest):
         cases = {
             "body.0.radius=-1": ["[[body]] #1", "radius = -1", "must be positive (um)"],
             "body.0.radius=nan": ["radius", "finite"],
+            "body.0.radius=1e-300": ["radius", "must be from 1e-50 to 1e50 (um)"],
             "body.0.radius='big'": ["radius", "must be a number"],
             "body.0.raduis=1": ["unknown key", "did you mean", "radius"],
             "fluid.viscosity=0": ["[fluid]", "viscosity = 0", "must be positive"],
@@ -365,6 +366,18 @@ class Results(SceneTest):
             self.assertTrue((np.linalg.norm(velocity[fluid], axis=1) < speed).all())
         self.assertTrue(written[1].endswith(".vts"))
         self.assertEqual(self.expect_done("flow", self.out, "--plane", "z=2.9", "--grid", "11x11").stderr, "")  # no body there
+
+    def test_a_full_disk_leaves_the_flow_of_before(self):
+        self.run_scene(CELL, "--set", "run.end_time=0.5")
+        numbers = Path(self.expect_done("flow", self.out, "--grid", "11x11").stdout.split()[0])
+        before = numbers.read_bytes()
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) // 2, len(before) // 2))
+
+        self.expect_refusal("flow", self.out, "--grid", "11x11", preexec_fn=limit, names=["cannot be written"])
+        self.assertEqual(numbers.read_bytes(), before)
+        self.assertEqual(list(self.out.glob("*.part")), [])
 
     def test_pictures_need_python_but_numbers_do_not(self):
         self.run_scene(CELL, "--set", "run.end_time=0.5")
