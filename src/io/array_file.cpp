@@ -13,6 +13,9 @@ namespace asterflow {
 
 namespace {
 
+// Files are closed here. What the library would do as the program ends crashes where a full disk kept one from closing.
+[[maybe_unused]] int const does_not_end_library = H5dont_atexit();
+
 // An HDF5 identifier that is released at the end of its scope.
 class Handle {
  public:

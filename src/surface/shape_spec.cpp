@@ -40,7 +40,7 @@ ShapeSpec read_shape(Table& table) {
     case Kind::ellipsoid:
       table.require("semi_axes");
       table.read("semi_axes", shape.semi_axes, positive, "um");
-      for (double const semi_axis : shape.semi_axes) check_size(table, "semi_axes", semi_axis);
+      for (int i = 0; i < 3; ++i) check_size(table, "semi_axes", shape.semi_axes[i]);
       break;
     case Kind::revolution:
       table.require("profile");

@@ -5,6 +5,7 @@
 #include "base/random.hpp"
 #include "kernels/list.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -140,6 +141,20 @@ TEST(All_backends, take_strengths_of_any_size) {
     Problem p = self_problem(300);
     for (auto& q : p.strengths) q *= size;
     expect_agreement(p, "strength " + std::to_string(size));
+  }
+}
+
+TEST(All_backends, take_strengths_too_small_for_all_their_digits) {
+  for (double const size : {1e-310, 5e-324}) {
+    Problem p = self_problem(300);
+    for (auto& q : p.strengths) q *= size;
+    for (auto const& backend : backend_names())
+      for (auto const& kernel : kernels())
+        for (double const accuracy : accuracies) {
+          PointArray const u = p.velocity(backend, kernel, accuracy);
+          EXPECT_TRUE(std::all_of(u.begin(), u.end(), [](Vec3d v) { return norm(v) < 1e-300; }))
+              << backend << " " << kernel << " at " << accuracy << ", strengths of " << size;
+        }
   }
 }
 
