@@ -15,6 +15,9 @@ struct EvaluatorOptions {
   std::string backend = "auto";  // see backend_names()
   double accuracy = 1e-6;        // relative L2 error asked for, 1e-3 ... 1e-15
   bool gradient = false;         // whether add_gradient() will be called, to the same accuracy
+  // Estimated error over `accuracy` from which on fast sums are made stricter. A solve wants one linear operator for all its
+  // vectors, those whose flows cancel too.
+  double largest_excess = 0.9;  // what a sample of targets may miss, below 1
 };
 
 class Evaluator {

@@ -18,7 +18,6 @@ namespace {
 
 constexpr double strictest = 1e-12;   // fast sums cannot do better
 constexpr std::size_t n_checked = 96;  // targets
-constexpr double tolerated = 0.9;      // estimated error over the one asked for: what a sample misses
 constexpr double margin = 0.3;         // of the next accuracy, where one was missed
 
 double square(ConstPoints points) {
@@ -72,7 +71,7 @@ class CheckedFast final : public FastEvaluator {
   void add_checked(Add add, std::size_t rows, ConstPoints strengths, Points result) {
     PointArray sum(result.size());
     (used().*add)(strengths, sum);
-    for (double missed = excess(add, rows, strengths, sum); missed > tolerated; missed = excess(add, rows, strengths, sum)) {
+    for (double missed = excess(add, rows, strengths, sum); missed > options_.largest_excess; missed = excess(add, rows, strengths, sum)) {
       if (accuracy_ < strictest) break;  // direct sums
       tighten(missed);
       std::fill(sum.begin(), sum.end(), Vec3d{});

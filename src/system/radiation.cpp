@@ -16,6 +16,7 @@ namespace {
 
 constexpr double rough_accuracy = 1e-3;
 constexpr double single_precision = 1e-5;  // from here on floats do
+constexpr double largest_excess = 10.0;    // of the error of sums, in vectors whose flows cancel
 
 PointArray to_body_frame(RigidPose const& pose, ConstPoints points) {
   PointArray local(points.size());
@@ -101,7 +102,7 @@ void Radiation::plan_surfaces() {
 
 void Radiation::plan_fibers(FiberNodes const& fibers) {
   auto const evaluator = [&](double accuracy) {
-    return make_evaluator(Stokeslet::name, {.backend = options_.evaluator, .accuracy = accuracy});
+    return make_evaluator(Stokeslet::name, {.backend = options_.evaluator, .accuracy = accuracy, .largest_excess = largest_excess});
   };
   if (!stokeslets_) {
     stokeslets_ = evaluator(options_.accuracy);
