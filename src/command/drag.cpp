@@ -5,6 +5,7 @@
 #include "command/progress.hpp"
 #include "io/picture.hpp"
 #include "io/scene.hpp"
+#include "io/whole_file.hpp"
 #include "system/drag.hpp"
 
 #include <algorithm>
@@ -29,18 +30,14 @@ struct DragOptions {
 
 // Writes all points so far; the file is replaced at once, so that an interrupted study leaves a whole one.
 void write_points(fs::path const& path, std::vector<DragPoint> const& points) {
-  fs::path const part = path.string() + ".part";
-  std::ofstream file(part);
-  file << "level,fibers,translation_drag,translation_spread,rotation_drag,rotation_spread,"
-          "gmres_iterations,rough_iterations,steps,seconds\n";
-  for (auto const& p : points)
-    file << fmt::format("{},{},{:.8g},{:.3g},{:.8g},{:.3g},{:.3g},{:.3g},{},{:.4g}\n", name_of(p.level), p.fiber_count,
-                        p.translation, p.translation_spread, p.rotation, p.rotation_spread, p.iterations,
-                        p.inner_iterations, p.steps, p.seconds);
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(part, path, error);
-  if (!file || error) throw SceneError(path.string() + ": cannot be written; is the disk full or the folder protected?");
+  write_whole_text(path, [&](std::ostream& file) {
+    file << "level,fibers,translation_drag,translation_spread,rotation_drag,rotation_spread,"
+            "gmres_iterations,rough_iterations,steps,seconds\n";
+    for (auto const& p : points)
+      file << fmt::format("{},{},{:.8g},{:.3g},{:.8g},{:.3g},{:.3g},{:.3g},{},{:.4g}\n", name_of(p.level), p.fiber_count,
+                          p.translation, p.translation_spread, p.rotation, p.rotation_spread, p.iterations,
+                          p.inner_iterations, p.steps, p.seconds);
+  });
 }
 
 // What makes two studies one: the scene and its changes, but not which points are asked for.

@@ -30,18 +30,19 @@ double next_output(double time, double interval, double end_time) {
   return std::min(n * interval, end_time);
 }
 
-// None before the first step, in a `local` scene and without surfaces.
+// Not before the first step, nor in a `local` scene.
+bool has_flow(Scene const& scene, double time) { return scene.run.interactions != Interactions::local && time > 0.0; }
+
+// None without flow or surfaces.
 std::optional<NoSlipResidual> no_slip_of(Simulation const& simulation, Frame const& frame) {
-  bool const has_flow = simulation.scene().run.interactions != Interactions::local && frame.time > 0.0;
-  if (!has_flow || (simulation.flows().bodies.empty() && !simulation.flows().periphery)) return std::nullopt;
+  if (!has_flow(simulation.scene(), frame.time) || (simulation.flows().bodies.empty() && !simulation.flows().periphery)) return std::nullopt;
   return no_slip_residual(StoredFlow(simulation.scene(), simulation.flows(), frame));
 }
 
-// A state without flow, at t = 0 or level `local`, still has its objects.
+// A state without flow still has its objects.
 std::string way_to_look(Simulation const& simulation, std::filesystem::path const& folder) {
-  bool const has_flow = simulation.scene().run.interactions != Interactions::local && simulation.time() > 0.0;
-  return has_flow ? fmt::format("asterflow flow {} --time {:g}", folder.string(), simulation.time())
-                  : fmt::format("asterflow export {}", folder.string());
+  if (!has_flow(simulation.scene(), simulation.time())) return fmt::format("asterflow export {}", folder.string());
+  return fmt::format("asterflow flow {} --time {:g}", folder.string(), simulation.time());
 }
 
 void print_no_slip(Simulation const& simulation) {

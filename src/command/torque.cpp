@@ -2,12 +2,12 @@
 
 #include "base/error.hpp"
 #include "io/picture.hpp"
+#include "io/whole_file.hpp"
 #include "system/torque_instability.hpp"
 
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <memory>
 #include <unistd.h>
 
@@ -25,16 +25,12 @@ struct TorqueOptions {
 };
 
 void write_curve(fs::path const& path, std::vector<TorquePoint> const& points) {
-  std::ofstream file(path);
-  file << "angle_degrees,free_sliding,no_sliding,free_sliding_of_fibers,no_sliding_of_fibers\n";
-  for (auto const& p : points)
-    file << fmt::format("{:.8g},{:.12g},{:.12g},{:.12g},{:.12g}\n", p.angle, p.continuum.free_sliding,
-                        p.continuum.no_sliding, p.fibers.free_sliding, p.fibers.no_sliding);
-  file.close();
-  if (file) return;
-  std::error_code ignored;
-  fs::remove(path, ignored);  // a part of it would stand in the way of the next attempt
-  throw SceneError(path.string() + ": cannot be written; is the disk full or the folder protected?");
+  write_whole_text(path, [&](std::ostream& file) {
+    file << "angle_degrees,free_sliding,no_sliding,free_sliding_of_fibers,no_sliding_of_fibers\n";
+    for (auto const& p : points)
+      file << fmt::format("{:.8g},{:.12g},{:.12g},{:.12g},{:.12g}\n", p.angle, p.continuum.free_sliding,
+                          p.continuum.no_sliding, p.fibers.free_sliding, p.fibers.no_sliding);
+  });
 }
 
 fs::path prepare_folder(TorqueOptions const& options) {
