@@ -4,13 +4,13 @@
 #include "io/picture.hpp"
 #include "io/scene.hpp"
 #include "io/trajectory.hpp"
+#include "io/whole_file.hpp"
 #include "observable/body_observables.hpp"
 #include "observable/fiber_observables.hpp"
 #include "observable/flow_observables.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <memory>
 #include <unistd.h>
 
@@ -29,27 +29,6 @@ struct ObserveOptions {
 
 constexpr double bin_width = 1.0;  // um, of the distribution of lengths
 constexpr int n_bin = 40;
-
-// A table that is written row by row under another name and takes its own when it is whole.
-class TableFile {
- public:
-  explicit TableFile(fs::path path) : path_(std::move(path)), part_(path_.string() + ".part"), file_(part_) {}
-
-  void line(std::string const& text) { file_ << text << '\n'; }
-
-  fs::path finish() {
-    file_.close();
-    std::error_code error;
-    if (file_) fs::rename(part_, path_, error);
-    if (!file_ || error)
-      throw SceneError(path_.string() + ": cannot be written; is the disk full or the folder protected?");
-    return path_;
-  }
-
- private:
-  fs::path path_, part_;
-  std::ofstream file_;
-};
 
 std::string header_line(Observables const& row) {
   std::string line = "time";
@@ -79,17 +58,12 @@ void show_progress(std::size_t frame, std::size_t count) {
   if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{} of {} states", frame + 1, count);
 }
 
-void observe(ObserveOptions const& options) {
-  TrajectoryReader const trajectory(options.folder);
+// Rows for every chosen state.
+void write_tables(ObserveOptions const& options, TrajectoryReader const& trajectory, std::ostream& table,
+                  std::ostream& distribution) {
   auto const& header = trajectory.header();
   Scene const scene = parse_scene(header.scene_text, header.scene_file, header.overrides);
   SceneFlows const flows = options.has_flow ? make_flows(scene) : SceneFlows{};
-  fs::path const folder = options.output.empty() ? fs::path(options.folder) : fs::path(options.output);
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || ::access(folder.c_str(), W_OK) != 0)
-    throw SceneError(folder.string() + ": cannot be used for output; choose another folder with -o");
-  TableFile table(folder / "observables.csv"), distribution(folder / "lengths.csv");
   std::size_t const n = trajectory.times().size();
   for (std::size_t i = 0; i < n; i += options.every) {
     Frame const frame = trajectory.frame(i);
@@ -98,13 +72,25 @@ void observe(ObserveOptions const& options) {
     auto const append = [&](Observables const& more) { row.insert(row.end(), more.begin(), more.end()); };
     append(fiber_observables(fibers));
     if (options.has_flow) append(flow_observables(scene, flows, frame, fibers));
-    if (i == 0) table.line(header_line(row)), distribution.line(distribution_header());
-    table.line(value_line(frame.time, row));
-    distribution.line(distribution_line(frame.time, fibers));
+    if (i == 0) table << header_line(row) << '\n', distribution << distribution_header() << '\n';
+    table << value_line(frame.time, row) << '\n';
+    distribution << distribution_line(frame.time, fibers) << '\n';
     show_progress(i, n);
   }
   if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
-  fs::path const numbers = table.finish(), lengths = distribution.finish(), picture = folder / "observables.png";
+}
+
+void observe(ObserveOptions const& options) {
+  TrajectoryReader const trajectory(options.folder);
+  fs::path const folder = options.output.empty() ? fs::path(options.folder) : fs::path(options.output);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || ::access(folder.c_str(), W_OK) != 0)
+    throw SceneError(folder.string() + ": cannot be used for output; choose another folder with -o");
+  fs::path const numbers = folder / "observables.csv", lengths = folder / "lengths.csv", picture = folder / "observables.png";
+  write_whole_text(numbers, [&](std::ostream& table) {
+    write_whole_text(lengths, [&](std::ostream& distribution) { write_tables(options, trajectory, table, distribution); });
+  });
   fmt::print("{}\n{}\n", numbers.string(), lengths.string());
   if (draw_picture("plot_observables.py", {numbers.string(), lengths.string(), picture.string()}))
     fmt::print("{}\n", picture.string());

@@ -36,7 +36,9 @@ class WallImages {
   void place(RigidPose const& pose, ConstPoints positions, ConstVector weights, std::vector<std::size_t> const& first);
 
   std::size_t size() const { return images_.size(); }
-  std::size_t memory() const { return images_.capacity() * (sizeof(Image) + sizeof(Share)); }  // bytes
+  std::size_t memory() const {  // bytes
+    return images_.capacity() * sizeof(Image) + shares_.capacity() * sizeof(Share) + merged_.capacity() * sizeof(std::size_t);
+  }
 
   // velocity [n_target] += flow of the images of `strengths` [n], pN over viscosity, at points in the fluid. Real: double or float.
   template <class Real>
