@@ -39,14 +39,11 @@ class FastSum final : public FastEvaluator {
       direct_ = make_direct(kernel_, {.accuracy = parameters_.accuracy, .gradient = parameters_.gradient});
       return direct_->set_points(sources, targets, normals);
     }
-    PointArray sorted(normals.size());
-    for_blocks("Fast::set_points", static_cast<long>(normals.size()),
-               [&](long i) { sorted[i] = normals[tree_->source_order()[i]]; });
     if (!parts_) {
       auto* const make = instructions_ == FastInstructions::device ? make_device_parts : make_host_parts;
       parts_ = make(kernel_, parameters_, instructions_);
     }
-    parts_->set_points(*tree_, sorted);
+    parts_->set_points(*tree_, normals);
   }
 
   void add_velocity(ConstPoints strengths, Points velocity) override {

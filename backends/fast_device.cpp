@@ -26,10 +26,11 @@ class DeviceParts final : public FastParts {
         far_(fast_kernel(kernel), parameters) {}
 
   void set_points(Octree& tree, ConstPoints normals) override {
-    lists_.set_points(tree);
-    near_.set_points(lists_, false, normals);
-    close_.set_points(lists_, true, normals);
-    far_.set_points(tree, normals);
+    lists_.set_points(tree, false);
+    PointArray const sorted = tree.sorted(normals);
+    near_.set_points(lists_, false, sorted);
+    close_.set_points(lists_, true, sorted);
+    far_.set_points(tree, sorted);
   }
 
   void add(ConstPoints strengths, Points velocity, Points slopes) override {

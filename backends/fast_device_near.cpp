@@ -179,12 +179,12 @@ void DeviceNear<Real>::list_close(NearLists const& lists) {
   std::vector<DeviceGroup> groups;
   std::vector<DeviceSegment> segments;
   for (NearLists::Leaf const& leaf : lists.leaves()) {
-    std::size_t k = 0;
-    for (NearGroup const& g : leaf.groups) {
-      if (k == g.close_end) continue;
+    for (std::size_t k = 0; k < leaf.close.size();) {
+      std::uint32_t const target = leaf.close[k].target;
       long const first = static_cast<long>(segments.size());
-      for (; k < g.close_end; ++k) segments.push_back({0, 1, leaf.close[k], leaf.close_levels[k]});
-      groups.push_back({g.target, first, static_cast<long>(segments.size()), g.n_target});
+      for (; k < leaf.close.size() && leaf.close[k].target == target; ++k)
+        segments.push_back({0, 1, leaf.close[k].source, leaf.close[k].level});
+      groups.push_back({target, first, static_cast<long>(segments.size()), 1});
     }
   }
   group_size_ = lists.group_size();

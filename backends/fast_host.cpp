@@ -17,13 +17,13 @@ class HostParts final : public FastParts {
   HostParts(std::string_view kernel, FastParameters const& parameters, FastInstructions instructions)
       : near_(fast_kernel(kernel), fast_loops_of<Real>(instructions),
               KernelSplit(parameters.split_shape).local_part(kernel, parameters.local_tolerance),
-              parameters.refinement_steps),
+              parameters.refinement_steps, parameters.gradient),
         far_(fast_kernel(kernel), fast_loops_of<Real>(instructions), parameters) {}
 
   void set_points(Octree& tree, ConstPoints normals) override {
     near_.set_points(tree);
     far_.set_points(tree);
-    normals_.assign(normals.begin(), normals.end());
+    normals_ = tree.sorted(normals);
   }
 
   void add(ConstPoints strengths, Points velocity, Points slopes) override {
@@ -31,6 +31,7 @@ class HostParts final : public FastParts {
     Vec3d* const gradient = slopes.empty() ? nullptr : slopes.data();
     near_.set_strengths(strengths.data(), normals);
     parallel_for("Fast::near", near_.n_items(), [&](long i) { near_.add(i, velocity.data(), gradient); });
+    parallel_for("Fast::reactions", near_.n_items(), [&](long i) { near_.add_reactions(i, velocity.data()); });
     far_.add(strengths.data(), normals, velocity.data(), gradient);
   }
 

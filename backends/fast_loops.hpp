@@ -54,22 +54,24 @@ struct PatchView {
 // The polynomials of the local part for one level's cutoff.
 template <class Real>
 struct NearLevel {
-  static constexpr int max_terms = 32;
+  static constexpr int max_terms = 24;
   Real cutoff2, u_scale;  // u = u_scale r^2 - 1
   Real a[max_terms], b[max_terms];
 };
 
-// Sources base + list[i] act at the cutoff of `level`, up to position `end` of the list.
+// Sources base + list[i] act at the cutoff of `level`, up to position `end` of the list. Their reactions are summed from
+// place `reaction` of the leaf on; one_way: they have none.
 struct NearSegment {
+  static constexpr std::int32_t one_way = -1;
   std::uint32_t base, end;
-  std::int32_t level;
+  std::int32_t level, reaction;
 };
 
 // One vector of targets, and its segments up to segment_end.
 struct NearGroup {
   long target;
   int n_target;
-  std::uint32_t segment_end, close_end;
+  std::uint32_t segment_end;
 };
 
 // The local part at the targets of one leaf.
@@ -86,6 +88,7 @@ struct NearWork {
   NearSegment const* segments;
   std::uint16_t const* list;
   double velocity_scale, gradient_scale;
+  Real* reactions;  // [place, 4], added to: three components and padding
 };
 
 // Which sources may lie within `reach` of a group of targets, all in normalised float coordinates.

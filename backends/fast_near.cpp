@@ -7,20 +7,23 @@
 
 #include "backends/fast_near_kernels.inl"
 
+#include <algorithm>
 #include <cmath>
 
 namespace asterflow {
 
 template <class Real>
-NearField<Real>::NearField(FastKernel kernel, FastLoops<Real> const& loops, LocalPart const& local, int refinement_steps)
+NearField<Real>::NearField(FastKernel kernel, FastLoops<Real> const& loops, LocalPart const& local, int refinement_steps,
+                           bool gradient)
     : kernel_(kernel),
       loops_(loops),
       lists_(loops.lanes, split_coordinates, loops.list_near),
       local_(local),
-      refinement_steps_(refinement_steps) {
+      refinement_steps_(refinement_steps),
+      gradient_(gradient) {
   int const n = static_cast<int>(local_.a.size());
-  int const terms = n <= 4 ? 4 : n <= 16 ? n + n % 2 : (n + 3) / 4 * 4;  // those the loops are compiled for
-  ASTERFLOW_REQUIRE(terms <= NearLevel<Real>::max_terms);
+  int const terms = sizeof(Real) == 8 ? std::max(14, n + n % 2) : n <= 7 ? 7 : n + n % 2;  // those the loops are compiled for
+  ASTERFLOW_REQUIRE(terms <= (sizeof(Real) == 8 ? 24 : 14));
   local_.a.resize(terms, 0.0);
   local_.b.resize(terms, 0.0);
   record_ = (split_coordinates ? 6 : 3) + n_component(kernel);
@@ -45,7 +48,8 @@ void NearField<Real>::make_levels() {
 
 template <class Real>
 void NearField<Real>::set_points(Octree& tree) {
-  lists_.set_points(tree);
+  lists_.set_points(tree, !gradient_);
+  reactions_.resize(4 * lists_.n_place());
   velocity_scale_ = std::pow(lists_.side(), decay(kernel_)) / (8.0 * M_PI);
   make_levels();
   copy_coordinates();
@@ -101,32 +105,31 @@ template <class Real>
 template <class Kernel>
 void NearField<Real>::add_close(NearLists::Leaf const& leaf, Vec3d* velocity, Vec3d* gradient) const {
   using D = Dual<double>;
-  std::size_t k = 0;
-  for (NearGroup const& group : leaf.groups)
-    for (; k < group.close_end; ++k)
-      for (long t = group.target; t < group.target + group.n_target; ++t) {
-        Vec3d const x = lists_.targets()[t] - lists_.sources()[leaf.close[k]];
-        double const r2 = dot(x, x), s = r2 > 0.0 ? 1.0 / std::sqrt(r2) : 0.0;
-        Vec3<D> const r = differentiable(x);
-        D const w = dot(r, r) * D(static_cast<double>(levels_[leaf.close_levels[k]].u_scale)) - D(1.0);
-        D const place[3] = {r.x, r.y, r.z};
-        D u[3];
-        add_pair<Kernel>(leaf.close_levels[k], leaf.close[k], place, r2, differentiable_inverse(x, s), w, u);
-        for (int d = 0; d < 3; ++d) {
-          velocity[t][d] += velocity_scale_ * u[d].value;
-          if (!gradient) continue;
-          for (int e = 0; e < 3; ++e) gradient[3 * t + d][e] += velocity_scale_ * lists_.side() * u[d].slope[e];
-        }
-      }
+  for (auto const& [target, source, level] : leaf.close) {
+    Vec3d const x = lists_.targets()[target] - lists_.sources()[source];
+    double const r2 = dot(x, x), s = r2 > 0.0 ? 1.0 / std::sqrt(r2) : 0.0;
+    Vec3<D> const r = differentiable(x);
+    D const w = dot(r, r) * D(static_cast<double>(levels_[level].u_scale)) - D(1.0);
+    D const place[3] = {r.x, r.y, r.z};
+    D u[3];
+    add_pair<Kernel>(level, source, place, r2, differentiable_inverse(x, s), w, u);
+    for (int d = 0; d < 3; ++d) {
+      velocity[target][d] += velocity_scale_ * u[d].value;
+      if (!gradient) continue;
+      for (int e = 0; e < 3; ++e) gradient[3L * target + d][e] += velocity_scale_ * lists_.side() * u[d].slope[e];
+    }
+  }
 }
 
 template <class Real>
-void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient) const {
+void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient) {
   NearLists::Leaf const& leaf = lists_.leaves()[item];
+  Real* const reactions = reactions_.data() + 4 * leaf.first_place;
+  std::fill_n(reactions, 4 * leaf.n_place, Real(0));
   NearWork<Real> const work{kernel_, static_cast<int>(local_.a.size()), refinement_steps_, levels_.data(),
                             records_.data(), record_, &lists_.targets().data()->x, leaf.groups.data(),
                             static_cast<long>(leaf.groups.size()), leaf.segments.data(), leaf.list.data(),
-                            velocity_scale_, velocity_scale_ * lists_.side()};
+                            velocity_scale_, velocity_scale_ * lists_.side(), reactions};
   loops_.add_near(work, &velocity->x, gradient ? &gradient->x : nullptr);
   if (leaf.close.empty()) return;
   if (kernel_ == FastKernel::stokeslet) return add_close<NearStokeslet>(leaf, velocity, gradient);
@@ -137,8 +140,17 @@ void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient) const {
 }
 
 template <class Real>
+void NearField<Real>::add_reactions(long item, Vec3d* velocity) const {
+  for (auto const& [points, place] : lists_.reactions_at(item)) {
+    Real const* reaction = reactions_.data() + 4 * place;
+    for (long i = points.begin; i < points.end; ++i, reaction += 4)
+      for (int d = 0; d < 3; ++d) velocity[i][d] += velocity_scale_ * static_cast<double>(reaction[d]);
+  }
+}
+
+template <class Real>
 std::size_t NearField<Real>::memory() const {
-  return records_.capacity() * sizeof(Real) + lists_.memory();
+  return (records_.capacity() + reactions_.capacity()) * sizeof(Real) + lists_.memory();
 }
 
 template class NearField<float>;

@@ -13,9 +13,10 @@ template <class Real>
 class NearField {
  public:
   // local: polynomials for cutoff 1; refinement_steps of the hardware's reciprocal square root.
-  NearField(FastKernel kernel, FastLoops<Real> const& loops, LocalPart const& local, int refinement_steps);
+  // gradient: whether gradients will be asked for.
+  NearField(FastKernel kernel, FastLoops<Real> const& loops, LocalPart const& local, int refinement_steps, bool gradient);
 
-  // Orders the targets of the tree's leaves; the tree must outlive the sums.
+  // Orders the points of the tree's leaves; the tree must outlive the sums.
   void set_points(Octree& tree);
 
   // Strengths and normals in the order of the tree's sources; kept until add() is done.
@@ -24,8 +25,10 @@ class NearField {
   long n_items() const { return static_cast<long>(lists_.leaves().size()); }
 
   // velocity [n_target] += the local part in units of the root's side, for the targets of one
-  // leaf; tree order. gradient [n_target, 3] likewise, unless null.
-  void add(long item, Vec3d* velocity, Vec3d* gradient) const;
+  // leaf; tree order. gradient [n_target, 3] likewise, unless null. Reactions are kept,
+  void add(long item, Vec3d* velocity, Vec3d* gradient);
+  // and those at one leaf added once all leaves are through.
+  void add_reactions(long item, Vec3d* velocity) const;
 
   std::size_t memory() const;
 
@@ -45,9 +48,11 @@ class NearField {
   NearLists lists_;
   LocalPart local_;
   int refinement_steps_;
+  bool gradient_;
   int record_;  // numbers per source: coordinates (float: high and low parts), strength, normal
   std::vector<NearLevel<Real>> levels_;
   std::vector<Real> records_;
+  std::vector<Real> reactions_;  // [place, 4]
   Vec3d const* strengths_ = nullptr;
   Vec3d const* normals_ = nullptr;
   double velocity_scale_ = 1.0;

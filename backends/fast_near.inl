@@ -51,39 +51,94 @@ struct NearLoop {
       for (int d = 0; d < 3; ++d) velocity[3 * (group.target + i) + d] += scale * u.at[d][i];
   }
 
+  // What the pairs of n sources with a vector of targets need of their distances; side by side, since every
+  // polynomial is a chain of operations that wait for each other.
+  template <int terms, int n>
+  struct Pairs {
+    P r[n][3], r2[n], inverse[n], a[n], b[n];
+
+    Pairs(NearWork<Real> const& work, NearLevel<Real> const& level, Targets const& targets, Real const* const (&records)[n]) {
+      P w[n];
+      for (int i = 0; i < n; ++i) {
+        targets.minus(records[i], r[i]);
+        r2[i] = r[i][0] * r[i][0] + r[i][1] * r[i][1] + r[i][2] * r[i][2];
+        inverse[i] = inverse_distance(r2[i], work.refinement_steps);
+        w[i] = r2[i] * level.u_scale - Real(1);
+        a[i] = broadcast(level.a[terms - 1]), b[i] = broadcast(level.b[terms - 1]);
+      }
+      for (int k = terms - 2; k >= 0; --k)
+        for (int i = 0; i < n; ++i) {
+          a[i] = a[i] * w[i] + level.a[k];
+          b[i] = b[i] * w[i] + level.b[k];
+        }
+    }
+  };
+
+  // The strengths of the group's own points, zero in lanes without.
+  struct Strengths {
+    P at[6];
+
+    Strengths(NearWork<Real> const& work, NearGroup const& group) {
+      for (int d = 0; d < work.record - offset; ++d)
+        for (int i = 0; i < W; ++i)
+          at[d][i] = i < group.n_target ? work.records[(group.target + i) * work.record + offset + d] : Real(0);
+    }
+  };
+
+  // u += n sources of a segment, from place k of the list on; their reactions with it.
+  template <class Kernel, int terms, bool has_reactions, int n>
+  static void add_sources(NearWork<Real> const& work, NearSegment const& segment, long k, Targets const& targets,
+                          Strengths const& strengths, P (&u)[3]) {
+    NearLevel<Real> const& level = work.levels[segment.level];
+    Real const* records[n];
+    for (int i = 0; i < n; ++i) records[i] = work.records + (static_cast<long>(segment.base) + work.list[k + i]) * work.record;
+    Pairs<terms, n> const pairs(work, level, targets, records);
+    for (int i = 0; i < n; ++i) {
+      auto const inside = [&](P const& x) { return pairs.r2[i] < broadcast(level.cutoff2) ? x : P{}; };
+      Kernel::add(pairs.r[i], pairs.inverse[i], pairs.a[i], pairs.b[i], inside, records[i] + offset, u);
+      if constexpr (has_reactions) {
+        P v[3] = {P{}, P{}, P{}};
+        Kernel::add(pairs.r[i], pairs.inverse[i], pairs.a[i], pairs.b[i], inside, strengths.at, v);
+        add_lane_sums<Kernel::parity, Real>(v, work.reactions + 4 * (long{segment.reaction} + work.list[k + i]));
+      }
+    }
+  }
+
+  // Those of one run.
+  template <class Kernel, int terms, bool has_reactions>
+  static void add_run(NearWork<Real> const& work, NearSegment const& segment, long begin, long end, Targets const& targets,
+                      Strengths const& strengths, P (&u)[3]) {
+    long k = begin;
+    for (; k + 2 <= end; k += 2) add_sources<Kernel, terms, has_reactions, 2>(work, segment, k, targets, strengths, u);
+    if (k < end) add_sources<Kernel, terms, has_reactions, 1>(work, segment, k, targets, strengths, u);
+  }
+
   template <class Kernel, int terms>
   static void add(NearWork<Real> const& work, double* velocity) {
     long source = 0, segment = 0;
     for (long g = 0; g < work.n_group; ++g) {
       NearGroup const& group = work.groups[g];
       Targets const targets(work.targets, group);
+      Strengths const strengths(work, group);
       Sums<3> sums;
-      for (; segment < group.segment_end; ++segment) {
+      P u[3] = {P{}, P{}, P{}};
+      long n_summed = 0;
+      while (segment < group.segment_end) {
         NearSegment const& piece = work.segments[segment];
-        NearLevel<Real> const& level = work.levels[piece.level];
-        Real const* const records = work.records + static_cast<long>(piece.base) * work.record;
-        Real a[terms], b[terms];
-        for (int k = 0; k < terms; ++k) a[k] = level.a[k], b[k] = level.b[k];
-        P const cutoff2 = broadcast(level.cutoff2);
-        while (source < piece.end) {
-          P u[3] = {P{}, P{}, P{}};
-          for (long const stop = smaller(long{piece.end}, source + near_run<Real>); source < stop; ++source) {
-            Real const* const record = records + work.list[source] * static_cast<long>(work.record);
-            P r[3];
-            targets.minus(record, r);
-            P const r2 = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-            P const inverse = inverse_distance(r2, work.refinement_steps);
-            P const w = r2 * level.u_scale - Real(1);
-            P pa = broadcast(a[terms - 1]), pb = broadcast(b[terms - 1]);
-            for (int k = terms - 2; k >= 0; --k) {
-              pa = pa * w + a[k];
-              pb = pb * w + b[k];
-            }
-            auto const inside = [&](P const& x) { return r2 < cutoff2 ? x : P{}; };
-            Kernel::add(r, inverse, pa, pb, inside, record + offset, u);
-          }
-          for (int d = 0; d < 3; ++d) sums.add(d, u[d]);
+        long const end = smaller(long{piece.end}, source + near_run<Real> - n_summed);
+        if (piece.reaction == NearSegment::one_way)
+          add_run<Kernel, terms, false>(work, piece, source, end, targets, strengths, u);
+        else
+          add_run<Kernel, terms, true>(work, piece, source, end, targets, strengths, u);
+        n_summed += end - source;
+        source = end;
+        if (source == piece.end) ++segment;
+        if (n_summed < near_run<Real> && segment < group.segment_end) continue;
+        for (int d = 0; d < 3; ++d) {
+          sums.add(d, u[d]);
+          u[d] = P{};
         }
+        n_summed = 0;
       }
       add_to(velocity, group, work.velocity_scale, sums);
     }
@@ -152,18 +207,22 @@ struct NearLoop {
   template <class Kernel>
   static void add_of(NearWork<Real> const& work, double* velocity, double* gradient) {
     if (gradient) return add_gradient<Kernel>(work, velocity, gradient);
+    if constexpr (sizeof(Real) == 4) {
+      switch (work.terms) {
+        case 7: return add<Kernel, 7>(work, velocity);
+        case 8: return add<Kernel, 8>(work, velocity);
+        case 10: return add<Kernel, 10>(work, velocity);
+        case 12: return add<Kernel, 12>(work, velocity);
+        default: return add<Kernel, 14>(work, velocity);
+      }
+    }
     switch (work.terms) {
-      case 4: return add<Kernel, 4>(work, velocity);
-      case 6: return add<Kernel, 6>(work, velocity);
-      case 8: return add<Kernel, 8>(work, velocity);
-      case 10: return add<Kernel, 10>(work, velocity);
-      case 12: return add<Kernel, 12>(work, velocity);
       case 14: return add<Kernel, 14>(work, velocity);
       case 16: return add<Kernel, 16>(work, velocity);
+      case 18: return add<Kernel, 18>(work, velocity);
       case 20: return add<Kernel, 20>(work, velocity);
-      case 24: return add<Kernel, 24>(work, velocity);
-      case 28: return add<Kernel, 28>(work, velocity);
-      default: return add<Kernel, 32>(work, velocity);
+      case 22: return add<Kernel, 22>(work, velocity);
+      default: return add<Kernel, 24>(work, velocity);
     }
   }
 };

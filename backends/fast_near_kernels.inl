@@ -8,6 +8,7 @@ namespace asterflow {
 namespace {
 
 struct NearStokeslet {
+  static constexpr int parity = 1;  // of the sum in r
   static constexpr int powers = 1;  // A scales as 1 / cutoff, B as 1 / cutoff^3
   template <class Number, class Inside, class Real>
   KOKKOS_INLINE_FUNCTION static void add(Number const (&r)[3], Number const& inverse, Number const& a, Number const& b, Inside const& inside,
@@ -20,6 +21,7 @@ struct NearStokeslet {
 };
 
 struct NearRotlet {
+  static constexpr int parity = -1;
   static constexpr int powers = 1;
   template <class Number, class Inside, class Real>
   KOKKOS_INLINE_FUNCTION static void add(Number const (&r)[3], Number const& inverse, Number const&, Number const& b, Inside const& inside,
@@ -32,6 +34,7 @@ struct NearRotlet {
 };
 
 struct NearStokesletPressure {
+  static constexpr int parity = -1;
   static constexpr int powers = 1;
   template <class Number, class Inside, class Real>
   KOKKOS_INLINE_FUNCTION static void add(Number const (&r)[3], Number const& inverse, Number const&, Number const& b, Inside const& inside,
@@ -41,6 +44,7 @@ struct NearStokesletPressure {
 };
 
 struct NearStresslet {
+  static constexpr int parity = -1;
   static constexpr int powers = 3;  // A scales as 1 / cutoff^3, B as 1 / cutoff^5
   template <class Number, class Inside, class Real>
   KOKKOS_INLINE_FUNCTION static void add(Number const (&r)[3], Number const& inverse, Number const& a, Number const& b, Inside const& inside,
@@ -58,6 +62,7 @@ struct NearStresslet {
 };
 
 struct NearStressletPressure {
+  static constexpr int parity = 1;
   static constexpr int powers = 3;
   template <class Number, class Inside, class Real>
   KOKKOS_INLINE_FUNCTION static void add(Number const (&r)[3], Number const& inverse, Number const& a, Number const& b, Inside const& inside,

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace asterflow {
 namespace {
@@ -38,13 +40,16 @@ void make_compact(PointArray const& points, std::uint32_t* first, std::uint32_t*
 
 }  // namespace
 
-void NearLists::set_points(Octree& tree) {
+// Leaves in the order of their points.
+void NearLists::set_points(Octree& tree, bool lists_once) {
   tree_ = &tree;
+  lists_once_ = lists_once && tree.is_self();
   auto const& leaves = tree.boxes().leaves();
   std::vector<std::pair<int, Box const*>> boxes;
   for (std::size_t level = 0; level < leaves.size(); ++level)
     for (Box const& box : leaves[level].boxes())
       if (box.targets.size() > 0) boxes.emplace_back(static_cast<int>(level), &box);
+  std::sort(boxes.begin(), boxes.end(), [](auto const& a, auto const& b) { return a.second->targets.begin < b.second->targets.begin; });
   leaves_.assign(boxes.size(), {});
   parallel_for("NearLists::set_points::order", static_cast<long>(boxes.size()), [&](long i) {
     Range const range = boxes[i].second->targets;
@@ -61,11 +66,50 @@ void NearLists::set_points(Octree& tree) {
   parallel_for("NearLists::set_points::list", static_cast<long>(boxes.size()),
                [&](long i) { leaves_[i] = list_sources(boxes[i].first, *boxes[i].second); });
   for (auto& coordinates : filter_) coordinates = {};
+  if (lists_once_) mirror_close_pairs();
+  gather_reactions();
+}
+
+// Close pairs of two groups act in the other direction too.
+void NearLists::mirror_close_pairs() {
+  std::vector<ClosePair> mirrored;
+  for (Leaf const& leaf : leaves_) {
+    auto const group_of = [&](long point) { return (point - leaf.targets.begin) / group_size_; };
+    for (ClosePair const& pair : leaf.close) {
+      bool const is_own = pair.source >= leaf.targets.begin && pair.source < leaf.targets.end;
+      if (!is_own || group_of(pair.source) != group_of(pair.target)) mirrored.push_back({pair.source, pair.target, pair.level});
+    }
+  }
+  for (ClosePair const& pair : mirrored) {
+    auto const is_after = [](long target, Leaf const& leaf) { return target < leaf.targets.begin; };
+    auto const next = std::upper_bound(leaves_.begin(), leaves_.end(), static_cast<long>(pair.target), is_after);
+    std::prev(next)->close.push_back(pair);
+  }
+}
+
+// Sorts the reactions to every leaf's targets by the leaf that they act on.
+void NearLists::gather_reactions() {
+  reactions_.clear();
+  first_reactions_.clear();
+  long place = 0;
+  for (Leaf& leaf : leaves_) {
+    leaf.first_place = std::exchange(place, place + leaf.n_place);
+    for (Reactions const& r : leaf.reactions) reactions_.push_back({r.sources, leaf.first_place + r.place});
+    leaf.reactions = {};
+  }
+  std::stable_sort(reactions_.begin(), reactions_.end(),
+                   [](Reactions const& a, Reactions const& b) { return a.sources.begin < b.sources.begin; });
+  auto const is_before = [](Reactions const& r, long point) { return r.sources.begin < point; };
+  for (Leaf const& leaf : leaves_)
+    first_reactions_.push_back(std::lower_bound(reactions_.begin(), reactions_.end(), leaf.targets.begin, is_before) -
+                               reactions_.begin());
+  first_reactions_.push_back(static_cast<long>(reactions_.size()));
 }
 
 bool NearLists::is_close(long target, int n_target, std::uint32_t source) const {
   for (long t = target; t < target + n_target; ++t) {
     Vec3d const r = targets()[t] - sources()[source];
+    if (std::abs(r.x) >= close_distance) continue;
     double const r2 = dot(r, r);
     if (r2 > 0.0 && r2 < close_distance * close_distance) return true;
   }
@@ -73,7 +117,8 @@ bool NearLists::is_close(long target, int n_target, std::uint32_t source) const 
 }
 
 // Boxes of the target's own level hold only sources as fine or finer; coarser leaves are found around the
-// target's ancestors. By level and place, so that segments of lists can be joined.
+// target's ancestors. By level and place, so that segments of lists can be joined. Of two leaves whose pairs are listed
+// once the finer lists them or, of one level, the first; the leaf itself is left out then.
 std::vector<NearLists::Candidates> NearLists::candidates(int level, Box const& box) const {
   std::vector<Candidates> found;
   for (int l = level; l >= 0; --l) {
@@ -82,11 +127,12 @@ std::vector<NearLists::Candidates> NearLists::candidates(int level, Box const& b
     std::size_t const first = found.size();
     int const place[3] = {box.place[0] >> shift, box.place[1] >> shift, box.place[2] >> shift};
     for (std::uint64_t key : neighbour_keys(place, l)) {
+      if (lists_once_ && l == level && key <= box.key) continue;
       Box const* near = tree_->boxes().leaf(l, key);
-      if (!near && l == level) near = tree_->boxes().refined_box(l, key);
+      if (!near && l == level && !lists_once_) near = tree_->boxes().refined_box(l, key);
       if (!near) continue;
       for (long begin = near->sources.begin; begin < near->sources.end; begin += list_span)
-        found.push_back({l, {begin, std::min(near->sources.end, begin + list_span)}});
+        found.push_back({l, {begin, std::min(near->sources.end, begin + list_span)}, lists_once_});
     }
     std::sort(found.begin() + static_cast<long>(first), found.end(),
               [](Candidates const& a, Candidates const& b) { return a.sources.begin < b.sources.begin; });
@@ -109,9 +155,12 @@ NearQuery NearLists::query(long first, int n) const {
   return q;
 }
 
-void NearLists::append_near(NearQuery const& query, NearGroup const& group, Candidates const& from,
-                                  std::size_t first_segment, Leaf& leaf) const {
-  bool const joins = leaf.segments.size() > first_segment && leaf.segments.back().level == from.level &&
+void NearLists::append_near(NearQuery& query, NearGroup const& group, Candidates& from, std::size_t first_segment,
+                            Leaf& leaf) const {
+  constexpr double slack = 4e-7;  // rounding of normalised float coordinates
+  query.reach = static_cast<float>(std::ldexp(1.0, -from.level) + slack);
+  bool const joins = !from.is_mutual && leaf.segments.size() > first_segment &&
+                     leaf.segments.back().reaction == NearSegment::one_way && leaf.segments.back().level == from.level &&
                      from.sources.end - leaf.segments.back().base <= list_span;
   long const base = joins ? leaf.segments.back().base : from.sources.begin;
   static thread_local std::vector<std::uint16_t> space[2];
@@ -123,10 +172,16 @@ void NearLists::append_near(NearQuery const& query, NearGroup const& group, Cand
   if (found.n_source == 0) return;
   leaf.list.insert(leaf.list.end(), found.sources, found.sources + found.n_source);
   auto const end = static_cast<std::uint32_t>(leaf.list.size());
-  if (joins)
+  if (joins) {
     leaf.segments.back().end = end;
-  else
-    leaf.segments.push_back({static_cast<std::uint32_t>(base), end, from.level});
+    return;
+  }
+  if (from.is_mutual && from.place < 0) {
+    from.place = std::exchange(leaf.n_place, leaf.n_place + from.sources.size());
+    leaf.reactions.push_back({from.sources, from.place});
+  }
+  std::int32_t const reaction = from.is_mutual ? static_cast<std::int32_t>(from.place) : NearSegment::one_way;
+  leaf.segments.push_back({static_cast<std::uint32_t>(base), end, from.level, reaction});
 }
 
 // Moves the sources that nearly touch a target from those found to leaf.close.
@@ -136,31 +191,41 @@ void NearLists::set_close_apart(NearGroup const& group, int level, std::uint32_t
     long const place = found.touching[k] - n_moved;
     std::uint32_t const source = base + found.sources[place];
     if (!is_close(group.target, group.n_target, source)) continue;
-    leaf.close.push_back(source);
+    for (int t = 0; t < group.n_target; ++t) leaf.close.push_back({static_cast<std::uint32_t>(group.target + t), source, level});
     std::copy(found.sources + place + 1, found.sources + found.n_source, found.sources + place);
     --found.n_source;
     ++n_moved;
   }
-  leaf.close_levels.resize(leaf.close.size(), level);
+}
+
+// Of the leaf itself, pairs listed once: those of the group one way, then those with the groups after it. The places of
+// the leaf's own reactions are its first.
+void NearLists::append_own(NearQuery& query, NearGroup const& group, int level, Leaf& leaf) const {
+  Range const all = leaf.targets;
+  long const next = group.target + group.n_target;
+  Candidates group_only{level, {group.target, next}};
+  append_near(query, group, group_only, leaf.segments.size(), leaf);
+  for (long begin = next; begin < all.end; begin += list_span) {
+    Candidates rest{level, {begin, std::min(all.end, begin + list_span)}, true, begin - all.begin};
+    append_near(query, group, rest, leaf.segments.size(), leaf);
+  }
 }
 
 NearLists::Leaf NearLists::list_sources(int level, Box const& box) const {
-  constexpr double slack = 4e-7;  // rounding of normalised float coordinates
-  auto const near = candidates(level, box);
+  auto near = candidates(level, box);
   Leaf leaf;
+  leaf.targets = box.targets;
+  if (lists_once_) leaf.reactions.push_back({box.targets, 0}), leaf.n_place = box.targets.size();
   for (long t = box.targets.begin; t < box.targets.end; t += group_size_) {
-    NearGroup group{t, static_cast<int>(std::min<long>(group_size_, box.targets.end - t)), 0, 0};
+    NearGroup group{t, static_cast<int>(std::min<long>(group_size_, box.targets.end - t)), 0};
     NearQuery q = query(t, group.n_target);
     std::size_t const first_segment = leaf.segments.size();
-    for (auto const& from : near) {
-      q.reach = static_cast<float>(std::ldexp(1.0, -from.level) + slack);
-      append_near(q, group, from, first_segment, leaf);
-    }
+    if (lists_once_) append_own(q, group, level, leaf);
+    for (auto& from : near) append_near(q, group, from, first_segment, leaf);
     group.segment_end = static_cast<std::uint32_t>(leaf.segments.size());
-    group.close_end = static_cast<std::uint32_t>(leaf.close.size());
     leaf.groups.push_back(group);
   }
-  ASTERFLOW_REQUIRE(leaf.list.size() < 0xffffffffu);
+  ASTERFLOW_REQUIRE(leaf.list.size() < 0xffffffffu && leaf.n_place < 0x7fffffff);
   leaf.list.shrink_to_fit();
   leaf.segments.shrink_to_fit();
   leaf.groups.shrink_to_fit();
@@ -168,10 +233,10 @@ NearLists::Leaf NearLists::list_sources(int level, Box const& box) const {
 }
 
 std::size_t NearLists::memory() const {
-  std::size_t bytes = leaves_.capacity() * sizeof(Leaf);
+  std::size_t bytes = leaves_.capacity() * sizeof(Leaf) + reactions_.capacity() * sizeof(Reactions);
   for (Leaf const& leaf : leaves_)
     bytes += leaf.groups.capacity() * sizeof(NearGroup) + leaf.segments.capacity() * sizeof(NearSegment) +
-             leaf.list.capacity() * sizeof(std::uint16_t) + leaf.close.capacity() * 2 * sizeof(std::uint32_t);
+             leaf.list.capacity() * sizeof(std::uint16_t) + leaf.close.capacity() * sizeof(ClosePair);
   return bytes;
 }
 

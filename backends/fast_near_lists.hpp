@@ -1,22 +1,36 @@
 #pragma once
 // Which pairs the near field sums: targets in compact groups, every group with the list of sources within the cutoff
-// of the coarser of their two leaves. Made once per geometry.
+// of the coarser of their two leaves. Made once per geometry. Where targets are the sources, a pair of points of two groups
+// can be listed once for both directions: each target's share in the velocity at the source is then called its reaction.
 
 #include "backends/fast_loops.hpp"
 #include "backends/fast_tree.hpp"
 
+#include <span>
 #include <vector>
 
 namespace asterflow {
 
 class NearLists {
  public:
+  // One way only: in float their coordinates are too close.
+  struct ClosePair {
+    std::uint32_t target, source;
+    int level;
+  };
+  // Reactions at these sources are summed from `place` on, one place per source.
+  struct Reactions {
+    Range sources;
+    long place;
+  };
   struct Leaf {
+    Range targets;
     std::vector<NearGroup> groups;
     std::vector<NearSegment> segments;
     std::vector<std::uint16_t> list;   // sources of each segment, from its base
-    std::vector<std::uint32_t> close;  // sources too close to a target for float coordinates
-    std::vector<int> close_levels;
+    std::vector<ClosePair> close;
+    std::vector<Reactions> reactions;  // of its targets, from first_place on
+    long first_place = 0, n_place = 0;
   };
   using Finder = void(NearQuery const&, long begin, long end, long base, NearFound& found);
 
@@ -25,9 +39,15 @@ class NearLists {
       : group_size_(group_size), sets_close_apart_(sets_close_apart), find_(find) {}
 
   // Orders the targets of every leaf into groups, then lists their sources. The tree must outlive the lists.
-  void set_points(Octree& tree);
+  // lists_once: pairs for both directions, where the targets are the sources.
+  void set_points(Octree& tree, bool lists_once);
 
   std::vector<Leaf> const& leaves() const { return leaves_; }  // those with targets
+  // Those of all leaves at the targets of leaf i.
+  std::span<Reactions const> reactions_at(long i) const {
+    return {reactions_.data() + first_reactions_[i], reactions_.data() + first_reactions_[i + 1]};
+  }
+  long n_place() const { return leaves_.empty() ? 0 : leaves_.back().first_place + leaves_.back().n_place; }
   int group_size() const { return group_size_; }
   int n_level() const { return static_cast<int>(tree_->boxes().leaves().size()); }
 
@@ -41,21 +61,28 @@ class NearLists {
   struct Candidates {
     int level;
     Range sources;
+    bool is_mutual = false;
+    long place = -1;  // of their reactions, once a source is listed
   };
 
   std::vector<Candidates> candidates(int level, Box const& box) const;
   Leaf list_sources(int level, Box const& box) const;
   NearQuery query(long first, int n) const;
-  void append_near(NearQuery const& query, NearGroup const& group, Candidates const& from, std::size_t first_segment,
-                   Leaf& leaf) const;
+  void append_near(NearQuery& query, NearGroup const& group, Candidates& from, std::size_t first_segment, Leaf& leaf) const;
+  void append_own(NearQuery& query, NearGroup const& group, int level, Leaf& leaf) const;
   void set_close_apart(NearGroup const& group, int level, std::uint32_t base, NearFound& found, Leaf& leaf) const;
   bool is_close(long target, int n_target, std::uint32_t source) const;
+  void gather_reactions();
+  void mirror_close_pairs();
 
   int group_size_;
   bool sets_close_apart_;
   Finder* find_;
   Octree const* tree_ = nullptr;
+  bool lists_once_ = false;
   std::vector<Leaf> leaves_;
+  std::vector<Reactions> reactions_;     // by leaf they act on
+  std::vector<long> first_reactions_;    // [n_leaf + 1]
   std::vector<float> filter_[3];  // normalised coordinates of the sources, while lists are made
 };
 

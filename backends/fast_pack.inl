@@ -140,6 +140,43 @@ inline Pack<Real> reciprocal_square_root(Pack<Real> x) {
 #endif
 }
 
+// sum[0 ... 2] += sign times the sum of the lanes of each vector; sum[3] is left alone or added zero to.
+template <int sign, class Real>
+inline void add_lane_sums(Pack<Real> const (&v)[3], Real* sum) {
+#if defined(__AVX2__)
+  if constexpr (sizeof(Real) == 4) {
+    __m128 part[3];
+    for (int d = 0; d < 3; ++d) {
+#if defined(__AVX512F__)
+      __m256 const half = _mm256_add_ps(_mm512_castps512_ps256((__m512)v[d]), _mm512_extractf32x8_ps((__m512)v[d], 1));
+#else
+      __m256 const half = (__m256)v[d];
+#endif
+      part[d] = _mm_add_ps(_mm256_castps256_ps128(half), _mm256_extractf128_ps(half, 1));
+    }
+    __m128 const all = _mm_hadd_ps(_mm_hadd_ps(part[0], part[1]), _mm_hadd_ps(part[2], _mm_setzero_ps()));
+    __m128 const before = _mm_loadu_ps(sum);
+    _mm_storeu_ps(sum, sign > 0 ? _mm_add_ps(before, all) : _mm_sub_ps(before, all));
+  } else {
+    __m256d part[3];
+    for (int d = 0; d < 3; ++d) {
+#if defined(__AVX512F__)
+      part[d] = _mm256_add_pd(_mm512_castpd512_pd256((__m512d)v[d]), _mm512_extractf64x4_pd((__m512d)v[d], 1));
+#else
+      part[d] = (__m256d)v[d];
+#endif
+    }
+    __m256d const xy = _mm256_hadd_pd(part[0], part[1]), z = _mm256_hadd_pd(part[2], _mm256_setzero_pd());
+    __m256d const all = _mm256_add_pd(_mm256_permute2f128_pd(xy, z, 0x20), _mm256_permute2f128_pd(xy, z, 0x31));
+    __m256d const before = _mm256_loadu_pd(sum);
+    _mm256_storeu_pd(sum, sign > 0 ? _mm256_add_pd(before, all) : _mm256_sub_pd(before, all));
+  }
+#else
+  for (int d = 0; d < 3; ++d)
+    for (int i = 0; i < lanes<Real>; ++i) sum[d] += sign * v[d][i];
+#endif
+}
+
 // Transposes a square of lanes x lanes numbers: row i of the result is column i of the input.
 template <class Real>
 inline void transpose(Pack<Real>* rows) {

@@ -11,8 +11,8 @@ class FastParts {
  public:
   virtual ~FastParts() = default;
 
-  // normals in the order of the tree's sources, empty for kernels without. Orders the targets of the tree's leaves; the
-  // tree must outlive the sums.
+  // normals as given, empty for kernels without. Orders the points of the tree's leaves; the tree must outlive the
+  // sums.
   virtual void set_points(Octree& tree, ConstPoints normals) = 0;
 
   // Adds the sum in units of the root's side, in the order of the tree.

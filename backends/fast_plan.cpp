@@ -19,12 +19,14 @@ struct Costs {
   double pair, node, point;  // ns per pair, grid node and point of a patch
 };
 
-Costs costs(FastParameters const& p, int components) {
+// lists_once: pairs serve both directions (fast_near_lists.hpp), so that one direction costs less.
+Costs costs(FastParameters const& p, int components, bool lists_once) {
   double const terms = 0.8 * p.split_shape - 1.0, width2 = static_cast<double>(p.width) * p.width;
   double const in_float = 4.0 * width2 + 100.0, in_double = 7.2 * width2 + 96.0;
   double const part = p.single ? in_float : in_double;
   double const pair = (p.single ? 0.019 : 0.038) * ((p.refinement_steps > 0 ? 25.0 : 18.0) + 2.0 * terms);
-  return {pair, (p.single ? 1.5 : 3.7) * (components + 3), (components / 6.0 + 0.5) * part};
+  double const direction = !lists_once ? 1.0 : p.single ? 0.8 : 0.65;
+  return {direction * pair, (p.single ? 1.5 : 3.7) * (components + 3), (components / 6.0 + 0.5) * part};
 }
 
 // Of the 27 boxes around a leaf with n targets, the part that a group of `lanes` of them has within the cutoff: the
@@ -232,7 +234,7 @@ Plan best_plan(std::string_view kernel, ConstPoints sources, ConstPoints targets
   require_finite(targets, "target");
   long const n = static_cast<long>(sources.size() + targets.size()) / 2;
   if (sources.empty() || targets.empty() || n <= p.capacity) return {};
-  Costs const c = costs(p, n_component(fast_kernel(kernel)));
+  Costs const c = costs(p, n_component(fast_kernel(kernel)), is_same(sources, targets) && !p.gradient);
   // Some of many points are enough to compare. Of few, a box that is refined in one tree only would make a difference.
   long const enough = p.single && !p.sums_in_double ? 5000 : 20000;
   Sample const sample(sources, targets, std::clamp(n / enough, 1L, 16L));
@@ -243,7 +245,7 @@ Plan best_plan(std::string_view kernel, ConstPoints sources, ConstPoints targets
   long const capacity = search.best().octree.capacity;
   std::vector<double> sides{side, 1.12 * side};
   if (side > 1.0) sides.push_back(side / 1.12);
-  search.compare(sides, {capacity * 5 / 7, capacity, std::min(capacity * 7 / 5, 4 * p.capacity)});
+  search.compare(sides, {capacity * 5 / 7, capacity, capacity * 7 / 5});
   return search.best();
 }
 
