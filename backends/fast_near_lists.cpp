@@ -212,9 +212,14 @@ void NearLists::append_own(NearQuery& query, NearGroup const& group, int level, 
 }
 
 NearLists::Leaf NearLists::list_sources(int level, Box const& box) const {
+  static thread_local std::vector<std::uint16_t> list;     // grown once for many leaves,
+  static thread_local std::vector<NearSegment> segments;  // whose own take what they need
   auto near = candidates(level, box);
   Leaf leaf;
+  list.clear(), list.swap(leaf.list);
+  segments.clear(), segments.swap(leaf.segments);
   leaf.targets = box.targets;
+  leaf.groups.reserve((box.targets.size() + group_size_ - 1) / group_size_);
   if (lists_once_) leaf.reactions.push_back({box.targets, 0}), leaf.n_place = box.targets.size();
   for (long t = box.targets.begin; t < box.targets.end; t += group_size_) {
     NearGroup group{t, static_cast<int>(std::min<long>(group_size_, box.targets.end - t)), 0};
@@ -226,9 +231,8 @@ NearLists::Leaf NearLists::list_sources(int level, Box const& box) const {
     leaf.groups.push_back(group);
   }
   ASTERFLOW_REQUIRE(leaf.list.size() < 0xffffffffu && leaf.n_place < 0x7fffffff);
-  leaf.list.shrink_to_fit();
-  leaf.segments.shrink_to_fit();
-  leaf.groups.shrink_to_fit();
+  list.swap(leaf.list), leaf.list = list;
+  segments.swap(leaf.segments), leaf.segments = segments;
   return leaf;
 }
 

@@ -29,6 +29,11 @@ void extend(ConstPoints points, Vec3d& low, Vec3d& high) {
 
 }  // namespace
 
+bool is_same(ConstPoints a, ConstPoints b) {
+  auto const same = [](Vec3d const& x, Vec3d const& y) { return x.x == y.x && x.y == y.y && x.z == y.z; };
+  return a.size() == b.size() && (a.data() == b.data() || std::equal(a.begin(), a.end(), b.begin(), same));
+}
+
 std::uint64_t morton_key(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
   return spread_bits(x) | spread_bits(y) << 1 | spread_bits(z) << 2;
 }
@@ -58,14 +63,17 @@ RootCube::RootCube(ConstPoints sources, ConstPoints targets, double enlargement)
   corner = (low - origin) * (1.0 / unit);
 }
 
+std::uint64_t finest_key(RootCube const& cube, Vec3d point) {
+  constexpr double cells = static_cast<double>(1 << morton_levels);
+  Vec3d const p = cube.normalised(cube.placed(point));
+  auto const cell = [&](double x) { return static_cast<std::uint64_t>(std::clamp(x * cells, 0.0, cells - 1.0)); };
+  return morton_key(cell(p.x), cell(p.y), cell(p.z));
+}
+
 std::vector<KeyedIndex> sorted_keys(ConstPoints points, RootCube const& cube) {
   std::vector<KeyedIndex> items(points.size());
-  constexpr double cells = static_cast<double>(1 << morton_levels);
-  for_blocks("Fast::morton_keys", static_cast<long>(points.size()), [&](long i) {
-    Vec3d const p = cube.normalised(cube.placed(points[i]));
-    auto const cell = [&](double x) { return static_cast<std::uint64_t>(std::clamp(x * cells, 0.0, cells - 1.0)); };
-    items[i] = {morton_key(cell(p.x), cell(p.y), cell(p.z)), static_cast<std::uint32_t>(i)};
-  });
+  for_blocks("Fast::morton_keys", static_cast<long>(points.size()),
+             [&](long i) { items[i] = {finest_key(cube, points[i]), static_cast<std::uint32_t>(i)}; });
   sort_by_key(items);
   return items;
 }

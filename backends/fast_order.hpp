@@ -12,8 +12,8 @@ namespace asterflow {
 
 inline constexpr int morton_levels = 21;  // of a key, three bits each
 
-// Whether they are one array.
-inline bool is_same(ConstPoints a, ConstPoints b) { return a.data() == b.data() && a.size() == b.size(); }
+// Whether they are the same points in one order.
+bool is_same(ConstPoints a, ConstPoints b);
 
 // Cell (x, y, z) of a level's 2^level cells per direction.
 std::uint64_t morton_key(std::uint64_t x, std::uint64_t y, std::uint64_t z);
@@ -32,6 +32,9 @@ struct RootCube {
   Vec3d placed(Vec3d x) const { return (x - origin) * (unit_side / side); }  // the factor is a power of two
   Vec3d normalised(Vec3d placed) const { return (placed - corner) / unit_side; }
 };
+
+// The cell of the finest level that a point is in.
+std::uint64_t finest_key(RootCube const& cube, Vec3d point);
 
 struct OrderedPoints {
   std::vector<std::uint64_t> keys;   // of the finest level, ascending

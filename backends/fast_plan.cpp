@@ -3,11 +3,13 @@
 #include "backends/fast_cover.hpp"
 #include "backends/fast_fourier.hpp"
 #include "backends/fast_kernel.hpp"
+#include "backends/fast_sort.hpp"
 #include "backends/finite.hpp"
 #include "base/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -60,6 +62,7 @@ class Sample {
     }
     double n() const { return 0.5 * stride * static_cast<double>(source_keys.size() + (same ? source_keys : target_keys).size()); }
   };
+  // On this thread alone.
   Ordered ordered(double enlargement) const {
     RootCube const cube(sources_, same_ ? sources_ : targets_, enlargement);
     return {cube.extent, keys(sources_, cube), keys(targets_, cube), same_, static_cast<double>(stride_)};
@@ -67,8 +70,13 @@ class Sample {
 
  private:
   static std::vector<std::uint64_t> keys(PointArray const& points, RootCube const& cube) {
+    std::vector<KeyedIndex> items;
+    items.reserve(points.size());
+    for (Vec3d const& x : points) items.push_back({finest_key(cube, x), 0});
+    sort_on_this_thread(items);
     std::vector<std::uint64_t> keys;
-    for (KeyedIndex const& item : sorted_keys(points, cube)) keys.push_back(item.key);
+    keys.reserve(items.size());
+    for (KeyedIndex const& item : items) keys.push_back(item.key);
     return keys;
   }
   PointArray every(ConstPoints points, RootCube const& cube) const {
@@ -87,18 +95,27 @@ class Sample {
 // Pairs in the lists of an octree that holds one of every `stride` points.
 double near_pairs(OctreeBoxes const& tree, double stride, double lanes) {
   double pairs = 0.0;
-  for (int level = 0; level < static_cast<int>(tree.leaves().size()); ++level)
-    for (Box const& box : tree.leaves()[level].boxes()) {
-      double const part = part_within_cutoff(stride * static_cast<double>(box.targets.size()), lanes);
+  std::vector<double> parts;  // of the leaves of one level
+  for (int level = 0; level < static_cast<int>(tree.leaves().size()); ++level) {
+    auto const& leaves = tree.leaves()[level].boxes();
+    parts.clear();
+    for (Box const& box : leaves) parts.push_back(part_within_cutoff(stride * static_cast<double>(box.targets.size()), lanes));
+    for (Box const& box : leaves) {
+      double const n_source = static_cast<double>(box.sources.size()), n_target = static_cast<double>(box.targets.size());
+      double const part = parts[&box - leaves.data()];
+      pairs += part * n_target * n_source;
       for (std::uint64_t key : neighbour_keys(box.place, level)) {
-        if (Box const* near = tree.leaf(level, key)) {
-          pairs += part * static_cast<double>(box.targets.size()) * near->sources.size();
+        if (key == box.key || key == no_key) continue;
+        if (Box const* near = key > box.key ? tree.leaf(level, key) : nullptr) {
+          pairs += part * n_target * static_cast<double>(near->sources.size());
+          pairs += parts[near - leaves.data()] * n_source * static_cast<double>(near->targets.size());
         } else if ((near = tree.refined_box(level, key))) {
-          pairs += part * static_cast<double>(box.targets.size()) * near->sources.size();
-          pairs += part * static_cast<double>(box.sources.size()) * near->targets.size();
+          pairs += part * n_target * static_cast<double>(near->sources.size());
+          pairs += part * n_source * static_cast<double>(near->targets.size());
         }
       }
     }
+  }
   return pairs * stride * stride;
 }
 
@@ -166,8 +183,8 @@ bool has_leaf_above(OctreeBoxes const& tree, int level) {
   return false;
 }
 
-// The cheapest first level for leaves of that capacity.
-Plan best_first_level(Sample::Ordered const& points, long capacity, FastParameters const& p, Costs const& c) {
+// The cheapest first level for leaves of that capacity; without cost where all cost more than `bound`.
+Plan best_first_level(Sample::Ordered const& points, long capacity, FastParameters const& p, Costs const& c, double bound) {
   constexpr int deepest_first = 5;
   OctreeBoxes const tree = points.boxes(capacity, 0);
   double const max_nodes = p.max_nodes(static_cast<std::size_t>(points.n()));
@@ -175,23 +192,27 @@ Plan best_first_level(Sample::Ordered const& points, long capacity, FastParamete
   auto const level = [&](OctreeBoxes const& boxes, int l) {
     return level_cost(boxes.refined()[l].boxes(), p, c, points.stride, max_nodes);
   };
-  double const near_of_tree = near(tree);
   int const n_level = static_cast<int>(tree.refined().size());
   std::vector<double> deeper(n_level + 1, 0.0);  // levels from each on
   for (int l = n_level - 1; l >= 0; --l) deeper[l] = deeper[l + 1] + level(tree, l);
+  double near_of_tree = -1.0;
   Plan best;
   for (int first = 0; first <= std::min(n_level, deepest_first); ++first) {
     Grid const root = root_grid(points.extent, p, first);
     double cost = c.node * root.swept() + c.point * points.n();
-    if (root.kept() > 2.0 * max_nodes || (best.cost > 0.0 && cost > best.cost)) continue;
+    if (root.kept() > 2.0 * max_nodes || cost >= bound) continue;
     if (has_leaf_above(tree, first)) {
       OctreeBoxes const refined = points.boxes(capacity, first);
-      cost += near(refined);
       for (int l = first; l < static_cast<int>(refined.refined().size()); ++l) cost += level(refined, l);
+      if (cost < bound) cost += near(refined);
     } else {
-      cost += near_of_tree + deeper[first];
+      cost += deeper[first];
+      if (cost < bound && near_of_tree < 0.0) near_of_tree = near(tree);
+      cost += near_of_tree;
     }
-    if (best.cost == 0.0 || cost < best.cost) best = {{capacity, first}, cost};
+    if (cost >= bound) continue;
+    best = {{capacity, first}, cost};
+    bound = cost;
   }
   return best;
 }
@@ -202,23 +223,33 @@ class Search {
   Search(Sample const& sample, FastParameters const& p, Costs const& c) : sample_(sample), p_(p), c_(c) {}
 
   void compare(std::vector<double> const& enlargements, std::vector<long> const& capacities) {
+    order(enlargements);
     std::vector<Plan> plans;
-    for (double enlargement : enlargements) {
-      if (!ordered_.contains(enlargement)) ordered_.emplace(enlargement, sample_.ordered(enlargement));
+    for (double enlargement : enlargements)
       for (long capacity : capacities)
         if (compared_.emplace(enlargement, capacity).second) plans.push_back({{capacity, 0, enlargement}, 0.0});
-    }
+    double const bound = best_.cost > 0.0 ? best_.cost : std::numeric_limits<double>::infinity();
     parallel_for("Fast::best_plan", static_cast<long>(plans.size()), [&](long i) {
       double const enlargement = plans[i].octree.enlargement;
-      plans[i] = best_first_level(ordered_.at(enlargement), plans[i].octree.capacity, p_, c_);
+      plans[i] = best_first_level(ordered_.at(enlargement), plans[i].octree.capacity, p_, c_, bound);
       plans[i].octree.enlargement = enlargement;
     });
     for (Plan const& plan : plans)
-      if (best_.cost == 0.0 || (plan.cost > 0.0 && plan.cost < best_.cost)) best_ = plan;
+      if (plan.cost > 0.0 && (best_.cost == 0.0 || plan.cost < best_.cost)) best_ = plan;
   }
   Plan const& best() const { return best_; }
 
  private:
+  // Sorts the sample in cubes of these sizes.
+  void order(std::vector<double> const& enlargements) {
+    std::vector<double> missing;
+    for (double enlargement : enlargements)
+      if (!ordered_.contains(enlargement)) missing.push_back(enlargement);
+    std::vector<Sample::Ordered> ordered(missing.size());
+    parallel_for("Fast::order_sample", static_cast<long>(missing.size()), [&](long i) { ordered[i] = sample_.ordered(missing[i]); });
+    for (std::size_t i = 0; i < missing.size(); ++i) ordered_.emplace(missing[i], std::move(ordered[i]));
+  }
+
   Sample const& sample_;
   FastParameters const& p_;
   Costs c_;
@@ -235,10 +266,10 @@ Plan best_plan(std::string_view kernel, ConstPoints sources, ConstPoints targets
   long const n = static_cast<long>(sources.size() + targets.size()) / 2;
   if (sources.empty() || targets.empty() || n <= p.capacity) return {};
   Costs const c = costs(p, n_component(fast_kernel(kernel)), is_same(sources, targets) && !p.gradient);
-  // Some of many points are enough to compare. Of few, a box that is refined in one tree only would make a difference.
-  long const enough = p.single && !p.sums_in_double ? 5000 : 20000;
+  constexpr long enough = 2500;  // of many points, to compare octrees
   Sample const sample(sources, targets, std::clamp(n / enough, 1L, 16L));
   Search search(sample, p, c);
+  search.compare({1.26}, {2 * p.capacity});  // most others cost more, which shows before all of their cost is known
   search.compare({1.0, 1.26, 1.59}, {p.capacity, 2 * p.capacity, 4 * p.capacity});
   // Half a step to either side.
   double const side = search.best().octree.enlargement;

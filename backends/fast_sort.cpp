@@ -62,11 +62,16 @@ void sort_range(KeyedIndex* items, KeyedIndex* others, long n, bool into_others)
 
 }  // namespace
 
+void sort_on_this_thread(std::vector<KeyedIndex>& items) {
+  std::vector<KeyedIndex> others(items.size());
+  sort_range(items.data(), others.data(), static_cast<long>(items.size()), false);
+}
+
 void sort_by_key(std::vector<KeyedIndex>& items) {
   constexpr long least_block = 8192, most_blocks = 64;
   long const n = static_cast<long>(items.size()), n_block = std::clamp(n / least_block, 1L, most_blocks);
+  if (n_block == 1) return sort_on_this_thread(items);
   std::vector<KeyedIndex> others(items.size());
-  if (n_block == 1) return sort_range(items.data(), others.data(), n, false);
   auto const begin = [&](long block) { return block * n / n_block; };
 
   std::vector<std::uint64_t> varying_of(n_block);

@@ -8,5 +8,6 @@ namespace asterflow {
 
 // By key; items of equal keys keep their order.
 void sort_by_key(std::vector<KeyedIndex>& items);
+void sort_on_this_thread(std::vector<KeyedIndex>& items);  // likewise
 
 }  // namespace asterflow

@@ -8,8 +8,8 @@
 namespace asterflow {
 namespace {
 
-constexpr int n_quadrature = 48;
-constexpr int n_fit = 64;
+constexpr int n_quadrature = 36;
+constexpr int n_fit = 44;
 
 struct Quadrature {
   std::array<double, n_quadrature> x, w;  // Gauss-Legendre on [0, 1]

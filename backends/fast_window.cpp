@@ -1,10 +1,24 @@
 #include "backends/fast_window.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace asterflow {
 namespace {
+
+constexpr int most_terms = 400;
+
+// 1 / (n (n + order)) for order 0, 1, 2: divisions would take most of the time of a series.
+std::array<std::array<double, most_terms>, 3> const& term_ratios() {
+  static auto const ratios = [] {
+    std::array<std::array<double, most_terms>, 3> all{};
+    for (int order = 0; order < 3; ++order)
+      for (int n = 1; n < most_terms; ++n) all[order][n] = 1.0 / (n * static_cast<double>(n + order));
+    return all;
+  }();
+  return ratios;
+}
 
 // I_order(z) / z^order by its power series; every term is positive, so nothing cancels.
 double scaled_bessel(int order, double z) {
@@ -12,8 +26,9 @@ double scaled_bessel(int order, double z) {
   for (int i = 1; i <= order; ++i) term /= 2.0 * i;
   double sum = term;
   double const quarter = 0.25 * z * z;
-  for (int n = 1; n < 400 && term > 1e-18 * sum; ++n) {
-    term *= quarter / (n * static_cast<double>(n + order));
+  auto const& ratios = term_ratios()[order];
+  for (int n = 1; n < most_terms && term > 1e-18 * sum; ++n) {
+    term *= quarter * ratios[n];
     sum += term;
   }
   return sum;
