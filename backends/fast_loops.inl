@@ -9,7 +9,13 @@
 #include "backends/fast_fourier.inl"
 #include "backends/fast_grid.inl"
 
-#include "backends/fast_convolution.inl"
+#include "backends/fast_rows.inl"
+
+#include "backends/fast_forward.inl"
+#include "backends/fast_inverse.inl"
+#include "backends/fast_sweep_y.inl"
+#include "backends/fast_sweep_z.inl"
+
 #include "backends/fast_near.inl"
 
 namespace asterflow {

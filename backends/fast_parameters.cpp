@@ -26,7 +26,7 @@ FastParameters fast_parameters(std::string_view kernel, double accuracy, bool gr
   p.gradient = gradient;
   bool const is_tensor = kernel.starts_with("stresslet");  // six components instead of three
   p.nodes_per_point = p.single ? (is_tensor ? 26.0 : 40.0) : 20.0 * std::max(1.0, std::pow(digits / 6.0, 3));
-  p.fewest_nodes = (p.single && p.sums_in_double ? 5e3 : 3.5e4) * p.nodes_per_point;
+  p.fewest_nodes = (p.single && p.sums_in_double ? 1e3 : 3.5e4) * p.nodes_per_point;
   return p;
 }
 
