@@ -25,6 +25,8 @@ FiberBasis::FiberBasis(int n)
   for (int k = 0; k < n; ++k) coefficients.row(k) *= 2 * k + 1;
   remainder = -legendre_integrals(gauss.nodes, n) * coefficients;
   remainder.rowwise() += gauss.weights.transpose();
+  Eigen::MatrixXd const slopes = legendre_derivatives(gauss.nodes, n) * coefficients;
+  weak_derivative = -(gauss.weights.cwiseInverse().asDiagonal() * slopes.transpose() * gauss.weights.asDiagonal());
 }
 
 FiberBasis const& fiber_basis(int n_node) {

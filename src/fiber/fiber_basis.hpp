@@ -24,6 +24,9 @@ struct FiberBasis {
   Eigen::MatrixXd transform;   // [n_tangent, n_tangent] values -> Legendre coefficients
   Eigen::MatrixXd legendre;    // [n_node, n_node]       values of the Legendre polynomials at the hydrodynamic nodes
   Eigen::MatrixXd remainder;   // [n_node, n_node]       values at the hydrodynamic nodes -> integral from there to 1
+  // [n_node, n_node] values g at the hydrodynamic nodes -> weak derivative h: sum w l h = -sum w (dl/d alpha) g for every
+  // polynomial l of degree < n_node. h is dg/d alpha with g(0) and -g(1) as points of force at the ends.
+  Eigen::MatrixXd weak_derivative;
 };
 
 // The basis of that many nodes; made once, kept for ever.

@@ -9,6 +9,7 @@ CytoplasmicPullingSpec read_cytoplasmic_pulling(Table table) {
   table.read("stall_force", spec.stall_force, positive, "pN");
   table.read("free_speed", spec.free_speed, positive, "um/s");
   table.read("cargo_radius", spec.cargo_radius, positive, "um");
+  table.read("cargo_offset", spec.cargo_offset, not_negative, "um");
   if (spec.motor_force)
     for (char const* key : {"stall_force", "free_speed", "cargo_radius"})
       if (table.has(key)) table.fail(key, "does not go together with motor_force");

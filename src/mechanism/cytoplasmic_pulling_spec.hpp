@@ -13,6 +13,7 @@ struct CytoplasmicPullingSpec {
   double stall_force = 1.1;           // F_stall, pN, > 0
   double free_speed = 2.0;            // V_max, um/s, > 0: of a motor without load
   double cargo_radius = 0.25;         // um, > 0: of a sphere with Stokes drag
+  double cargo_offset = 0.0;          // b, um, >= 0: its centre trails so far behind the motor, along the fiber
 };
 
 CytoplasmicPullingSpec read_cytoplasmic_pulling(Table table);

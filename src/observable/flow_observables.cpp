@@ -2,6 +2,7 @@
 
 #include "fiber/fibers.hpp"
 #include "io/frame.hpp"
+#include "mechanism/cytoplasmic_pulling.hpp"
 #include "observable/fluid_samples.hpp"
 #include "observable/force_moments.hpp"
 #include "system/no_slip.hpp"
@@ -23,13 +24,17 @@ PointArray tangents_of(StoredFibers const& fibers) {
   return tangents;
 }
 
-// Material velocities [n_node] of the fibers in the flow u of all others: V = u + c (I + t t) (f + f_motor).
-PointArray material_velocities(ConstPoints u, double viscosity, StoredFibers const& fibers, ConstPoints tangents) {
-  PointArray velocity(u.begin(), u.end());
+// Material velocities [n_node] of the fibers in the flow u of all others: V = u + c (I + t t) (f - f_dipole + f_motor).
+PointArray material_velocities(ConstPoints u, Scene const& scene, StoredFibers const& fibers, ConstPoints tangents) {
+  double const viscosity = scene.fluid.viscosity, offset = scene.cytoplasmic_pulling ? scene.cytoplasmic_pulling->cargo_offset : 0.0;
+  PointArray velocity(u.begin(), u.end()), dipoles(u.size());
   for (std::size_t i = 0; i < fibers.count(); ++i) {
     double const c = slender_body_mobility(fibers.length[i], fibers.material[i].radius, viscosity);
+    auto const n = static_cast<std::size_t>(fibers.node_count(i));
+    add_tether_tension(fibers.motor_load[i] * offset, fibers.length[i], tangents.subspan(fibers.first[i], n),
+                       Points(dipoles).subspan(fibers.first[i], n));
     for (auto k = fibers.first[i]; k < fibers.first[i + 1]; ++k) {
-      Vec3d const force = fibers.force_density[k] + fibers.motor_load[i] * tangents[k];
+      Vec3d const force = fibers.force_density[k] - dipoles[k] + fibers.motor_load[i] * tangents[k];
       velocity[k] += c * (force + dot(tangents[k], force) * tangents[k]);
     }
   }
@@ -57,7 +62,7 @@ void add_power(StoredFlow const& flow, Scene const& scene, StoredFibers const& f
 
 void add_fibers(StoredFlow const& flow, Scene const& scene, StoredFibers const& fibers, Observables& row) {
   PointArray const u = flow.incident_at_fibers(), tangents = tangents_of(fibers);
-  add_power(flow, scene, fibers, material_velocities(u, scene.fluid.viscosity, fibers, tangents), tangents, row);
+  add_power(flow, scene, fibers, material_velocities(u, scene, fibers, tangents), tangents, row);
 }
 
 // Forces from outside on plus ends, along fibers and on free bodies; NaN with held bodies, whose holder is not stored.

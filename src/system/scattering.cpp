@@ -45,8 +45,9 @@ void Scattering::add_answer(ConstPoints z, bool affine, Points received, Exchang
   for (std::size_t b = 0; b < bodies_.size(); ++b) loads.push_back(radiation_->load_of_incident(b, z));
   PointArray force_density(radiation_->n_fiber_nodes());
   answer(z.first(force_density.size()), loads, affine, force_density, motions);
-  radiation_->exchange(force_density, motions, is_free_, z, received, kind);
   fibers_.add_own_flow(force_density, received.first(force_density.size()));
+  if (affine) fibers_.add_dipoles(force_density);
+  radiation_->exchange(force_density, motions, is_free_, z, received, kind);
 }
 
 void Scattering::apply_equation(ConstVector z, Vector result, Exchange kind) const {
@@ -146,6 +147,7 @@ ScatteringSolution Scattering::solve(ConstPoints background, ConstPoints guess) 
   std::size_t const n_fiber_node = fibers_.nodes().positions.size();
   solution.force_density.resize(n_fiber_node);
   answer(ConstPoints(solution.incident).first(n_fiber_node), loads, true, solution.force_density, solution.motions);
+  fibers_.add_dipoles(solution.force_density);
   return solution;
 }
 

@@ -36,6 +36,8 @@ class FiberAnswers {
   virtual void add_own_flow(ConstPoints force_density, Points u) const = 0;
   // f += f_0, loads += l_0
   virtual void add_affine_response(Points f, std::span<Vector6> loads) const = 0;
+  // f += forces that go along with the fibers and that only others feel
+  virtual void add_dipoles(Points) const {}
   // resistances += sum of S over the fibers that a body holds
   virtual void add_body_resistance(std::span<Matrix6> resistances) const = 0;
 };

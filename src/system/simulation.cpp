@@ -15,7 +15,8 @@ namespace {
 // The fibers of a step as the scattering problem sees them.
 class SteppedFibers final : public FiberAnswers {
  public:
-  explicit SteppedFibers(Fibers const& fibers) : fibers_(fibers) {
+  // motors: null without.
+  SteppedFibers(Fibers const& fibers, CytoplasmicPulling const* motors) : fibers_(fibers), motors_(motors) {
     for (std::size_t i = 0; i <= fibers.count(); ++i) first_.push_back(fibers.first_node(i));
   }
   FiberNodes nodes() const override { return {fibers_.nodes(), fibers_.weights(), &first_}; }
@@ -28,12 +29,16 @@ class SteppedFibers final : public FiberAnswers {
   void add_affine_response(Points f, std::span<Vector6> loads) const override {
     fibers_.add_affine_response(f, loads);
   }
+  void add_dipoles(Points f) const override {
+    if (motors_) motors_->add_dipoles(fibers_, f);
+  }
   void add_body_resistance(std::span<Matrix6> resistances) const override {
     fibers_.add_body_resistance(resistances);
   }
 
  private:
   Fibers const& fibers_;
+  CytoplasmicPulling const* motors_;
   std::vector<std::size_t> first_;
 };
 
@@ -170,7 +175,7 @@ ScatteringSolution Simulation::solve(ConstPoints expected, std::vector<BodyMotio
                                      std::vector<ContactLoad> const& contacts, StepReport& report) {
   Radiation::Seconds const before = radiation_ ? radiation_->seconds() : Radiation::Seconds{};
   Timer const timer;
-  SteppedFibers const answers(fibers_);
+  SteppedFibers const answers(fibers_, cytoplasmic_pulling_ ? &*cytoplasmic_pulling_ : nullptr);
   Scattering scattering(answers, drives(maps, contacts), radiation_.get(), &memory_,
                         {.tolerance = scene_.run.gmres_tolerance, .max_iterations = scene_.run.gmres_max_iterations});
   auto const nodes = scattering.nodes();

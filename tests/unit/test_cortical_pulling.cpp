@@ -206,6 +206,7 @@ TEST(CorticalPulling, resumes_bit_for_bit_with_all_mechanisms) {
     [dynamic_instability]
     rescue_rate = 0.1
     [cytoplasmic_pulling]
+    cargo_offset = 0.3
     [pushing]
     sliding = "friction"
     friction = 10.0

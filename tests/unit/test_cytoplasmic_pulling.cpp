@@ -1,6 +1,7 @@
 #include "mechanism/cytoplasmic_pulling.hpp"
 
 #include "fiber_fixture.hpp"
+#include "kernels/stokeslet.hpp"
 #include "system/simulation.hpp"
 
 #include <gtest/gtest.h>
@@ -12,10 +13,10 @@ namespace {
 constexpr double viscosity = 1.7;
 Vec3d const along = normalized(Vec3d{1, -2, 0.5});
 
-Fibers one_fiber(MinusEnd minus_end, double length) {
+Fibers one_fiber(MinusEnd minus_end, double length, int n_node = 16) {
   Fibers fibers(viscosity);
-  fibers.add({.n_node = 16}, {.kind = minus_end, .position = {1, 2, 3}, .direction = along},
-             straight_centreline({1, 2, 3}, along, length, 16));
+  fibers.add({.n_node = n_node}, {.kind = minus_end, .position = {1, 2, 3}, .direction = along},
+             straight_centreline({1, 2, 3}, along, length, n_node));
   return fibers;
 }
 
@@ -69,6 +70,43 @@ TEST(CytoplasmicPulling, moves_a_free_fiber_that_others_do_not_feel) {
   double const speed = 2 * slender_body_mobility(7.0, 0.0125, viscosity) * 0.2 * 0.9;  // U = 2 c f along the fiber
   EXPECT_LT(norm(fibers.shape(0).minus_end - Vec3d{1, 2, 3} - 0.5 * speed * along), 1e-13);
   EXPECT_LT(norm(fibers.ends(0).minus_end), 1e-13);
+}
+
+TEST(CytoplasmicPulling, with_trailing_cargo_a_straight_fiber_flows_as_two_stokeslets_at_its_ends) {
+  CytoplasmicPulling const pulling({.motor_density = 0.2, .motor_force = 0.9, .cargo_offset = 0.3}, viscosity);
+  Fibers fibers = one_fiber(MinusEnd::clamped, 7.0, 40);
+  fibers.begin_step();
+  fibers.prepare(0.5, {});
+  PointArray f(fibers.node_count());
+  pulling.add_dipoles(fibers, f);
+  Vec3d const tension = 0.2 * 0.9 * 0.3 * along, minus = {1, 2, 3}, plus = minus + 7.0 * along;
+  for (Vec3d const& x : {Vec3d{1, 2, 6}, {5, 0, 3}, {-4, 5, 1}}) {  // 2.8 um away and more: rho^-40 with rho = 2.1
+    Vec3d sum;
+    for (std::size_t i = 0; i < f.size(); ++i) sum += Stokeslet::velocity(x - fibers.nodes()[i], fibers.weights()[i] * f[i]);
+    Vec3d const exact = Stokeslet::velocity(x - minus, tension) - Stokeslet::velocity(x - plus, tension);
+    EXPECT_LT(norm(sum - exact), 1e-9 * norm(exact));
+  }
+}
+
+TEST(CytoplasmicPulling, with_trailing_cargo_exerts_a_stress_without_force_and_torque) {
+  Fibers fibers(viscosity);
+  Centreline shape = straight_centreline({1, 2, 3}, along, 5.0, 16);
+  for (std::size_t j = 0; j < shape.tangents.size(); ++j)
+    shape.tangents[j] = normalized(shape.tangents[j] + (0.02 * j) * Vec3d{std::cos(0.3 * j), 1.0, 0.1 * j});
+  fibers.add({.n_node = 16}, {.position = {1, 2, 3}}, shape);
+  fibers.begin_step();
+  fibers.prepare(1e-9, {});
+  PointArray f(fibers.node_count());
+  CytoplasmicPulling({.motor_density = 2.0, .motor_force = 0.5, .cargo_offset = 0.4}, viscosity).add_dipoles(fibers, f);
+  Vec3d force, torque;
+  double work = 0.0, trace = 0.0;
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    Vec3d const x = fibers.nodes()[i], strength = fibers.weights()[i] * f[i];
+    force += strength, torque += cross(x, strength), trace += dot(x, strength), work += norm(strength);
+  }
+  EXPECT_LT(norm(force), 1e-13 * work);
+  EXPECT_LT(norm(torque), 1e-12 * work);
+  EXPECT_NEAR(trace, -2.0 * 0.5 * 0.4 * 5.0, 1e-2);  // -n_dyn F_m b L: a puller; tangents between nodes are not of unit length
 }
 
 TEST(CytoplasmicPulling, forces_and_torques_on_the_body_balance_its_drag) {

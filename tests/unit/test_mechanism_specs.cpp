@@ -53,6 +53,7 @@ TEST(MechanismSpecs, wrong_signs_and_probabilities_over_one_are_refused) {
   expect_refusal("cortex_margin = -0.1\n", "cortex_margin = -0.1");
   expect_refusal("[cytoplasmic_pulling]\nmotor_density = -0.1\n", "motor_density = -0.1");
   expect_refusal("[cytoplasmic_pulling]\nstall_force = 0\n", "stall_force = 0");
+  expect_refusal("[cytoplasmic_pulling]\ncargo_offset = -0.1\n", "cargo_offset = -0.1");
   expect_refusal("[pushing]\nsliding = \"none\"\nstall_force = -4.4\n", "stall_force = -4.4");
   expect_refusal("[pushing]\nsliding = \"none\"\nminimal_catastrophe_rate = -0.2\n", "minimal_catastrophe_rate = -0.2");
   expect_refusal("[cortical_pulling]\npull_force = -3\n", "pull_force = -3");

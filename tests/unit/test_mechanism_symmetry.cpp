@@ -72,7 +72,8 @@ std::string const mechanisms[] = {
     "[pushing]\nsliding = \"none\"\n", "[pushing]\nsliding = \"free\"\n",
     "[pushing]\nsliding = \"friction\"\nfriction = 5.0\n",
     "[cortical_pulling]\npositions = SITES\ncapture_rate = 20.0\nposterior = AXIS\ndividing_body = \"ball\"\n",
-    "[cytoplasmic_pulling]\n", "[pushing]\nsliding = \"none\"\n[steric_repulsion]\nrange = 0.5\n"};
+    "[cytoplasmic_pulling]\n", "[cytoplasmic_pulling]\ncargo_offset = 0.5\n",
+    "[pushing]\nsliding = \"none\"\n[steric_repulsion]\nrange = 0.5\n"};
 
 void expect_image(Matrix3 const& image, Eigen::Quaterniond const& turn) {
   for (std::string const& mechanism : mechanisms) {

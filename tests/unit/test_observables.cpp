@@ -198,6 +198,19 @@ TEST(Observables, of_repelled_fibers_balance_the_forces_of_the_cortex) {
   EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-8 * 5.0);  // of the pull of all motors: 12 fibers, 0.1 / um, 0.9 pN
 }
 
+TEST(Observables, of_trailing_cargo_balance_and_hold_its_stress) {
+  std::string const fiber = "[fluid]\nviscosity = 1.7\n[[fiber]]\nlength = 6.0\n[cytoplasmic_pulling]\n"
+                            "motor_density = 0.5\nmotor_force = 0.8\n";
+  auto const seen = observed_after(fiber + "cargo_offset = 0.2\n" + open, 0.01), without = observed_after(fiber + open, 0.01);
+  EXPECT_NEAR(value(seen.flow, "force_moment_xx"), -2.0 / 3.0 * 0.5 * 0.8 * 0.2 * 6.0, 1e-8);
+  EXPECT_NEAR(value(seen.flow, "force_moment_yy"), 1.0 / 3.0 * 0.5 * 0.8 * 0.2 * 6.0, 1e-8);
+  EXPECT_GT(value(seen.flow, "puller_index"), 0.0);
+  EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-12);
+  // The fiber does not feel its own cargo, and its motors work as before.
+  EXPECT_NEAR(value(seen.flow, "motor_power"), value(without.flow, "motor_power"), 1e-12);
+  EXPECT_GT(value(seen.flow, "motor_power"), 0.1);
+}
+
 TEST(Observables, of_a_body_against_the_cortex_balance_its_force) {
   auto const seen = observed_after(R"(
     [periphery]
