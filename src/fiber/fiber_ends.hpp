@@ -64,6 +64,7 @@ struct EndForces {
   Vec3d minus_end{};         // pN, of the fiber on what holds its minus end: F(0) = T X_s - E X_sss
   Vec3d minus_end_torque{};  // pN um, about the minus end
   Vec3d contact{};           // pN, sum of the loads on its nodes, but for those of the body that holds it
+  Vec3d contact_torque{};    // pN um, of the same about the minus end
 };
 
 }  // namespace asterflow

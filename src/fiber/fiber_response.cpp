@@ -175,7 +175,10 @@ EndForces FiberResponse::internal_forces(ConstPoints u, Vector6 const& q, Centre
   EndForces ends;
   for (int i = 0; i < n; ++i) {  // elastic part
     Vec3d const other = step_.node_loads.empty() ? Vec3d{} : node_force(i, u[i], q, force[i]);
-    if (has_external_load(i)) ends.contact += weights_[i] * other;
+    if (has_external_load(i)) {
+      ends.contact += weights_[i] * other;
+      ends.contact_torque += weights_[i] * cross(nodes_[i] - minus_end_, other);
+    }
     force[i] -= applied(i) + other;
   }
   Vec3d const tip = tip_force(u, q);

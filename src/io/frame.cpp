@@ -34,20 +34,38 @@ PointArray points_of(Frame const& frame, std::string const& name) {
   return points;
 }
 
-std::vector<Eigen::Quaterniond> orientations_of(Frame const& frame) {
-  auto const values = numbers_of(frame, "body/orientation");
+std::vector<Eigen::Quaterniond> orientations_of(Frame const& frame, std::string const& name) {
+  auto const values = numbers_of(frame, name);
   std::vector<Eigen::Quaterniond> orientations;
   for (std::size_t i = 0; i + 3 < values.size(); i += 4)
     orientations.emplace_back(values[i], values[i + 1], values[i + 2], values[i + 3]);
   return orientations;
 }
 
+std::vector<RigidPose> flow_poses(Frame const& frame) {
+  PointArray positions = points_of(frame, "body/flow_position");
+  std::vector<Eigen::Quaterniond> orientations = orientations_of(frame, "body/flow_orientation");
+  if (positions.empty()) {  // before the first step
+    positions = points_of(frame, "body/position");
+    orientations = orientations_of(frame);
+  }
+  std::vector<RigidPose> poses;
+  for (std::size_t b = 0; b < positions.size(); ++b) poses.push_back({positions[b], orientations.at(b).toRotationMatrix()});
+  return poses;
+}
+
+PointArray flow_nodes(Frame const& frame) {
+  PointArray nodes = points_of(frame, "fiber/position");
+  PointArray const shifts = points_of(frame, "fiber/flow_shift");
+  for (std::size_t i = 0; i < shifts.size(); ++i) nodes.at(i) += shifts[i];
+  return nodes;
+}
+
 std::vector<BodySpec> bodies_at(std::vector<BodySpec> bodies, Frame const& frame) {
-  auto const positions = points_of(frame, "body/position");
-  auto const orientations = orientations_of(frame);
+  auto const poses = flow_poses(frame);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    bodies[b].position = positions.at(b);
-    bodies[b].orientation = orientations.at(b);
+    bodies[b].position = poses.at(b).position;
+    bodies[b].orientation = Eigen::Quaterniond(poses[b].rotation);
   }
   return bodies;
 }

@@ -49,7 +49,7 @@ void add_power(StoredFlow const& flow, Scene const& scene, StoredFibers const& f
       motors += fibers.weight[k] * fibers.motor_load[i] * dot(tangents[k], velocity[k]);
     if (norm(fibers.plus_end_force[i]) > 0.0)
       tips += dot(fibers.plus_end_force[i],
-                  value_at_plus_end(velocity.subspan(fibers.first[i], fibers.node_count(i))));
+                  value_at_end(velocity.subspan(fibers.first[i], fibers.node_count(i)), 1.0));
   }
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     if (scene.bodies[b].motion == BodySpec::Motion::free)
@@ -65,16 +65,38 @@ void add_fibers(StoredFlow const& flow, Scene const& scene, StoredFibers const& 
   add_power(flow, scene, fibers, material_velocities(u, scene, fibers, tangents), tangents, row);
 }
 
-// Forces from outside on plus ends, along fibers and on free bodies; NaN with held bodies, whose holder is not stored.
-Vec3d applied_force(Scene const& scene, Frame const& frame, StoredFibers const& fibers) {
-  Vec3d sum{};
-  for (std::size_t i = 0; i < fibers.count(); ++i) {
-    sum += fibers.plus_end_force[i] + fibers.contact_force[i] + fibers.length[i] * fibers.external_load[i];
-    if (fibers.body[i] < 0) sum -= fibers.minus_end_force[i];  // what holds it in space gives this back
+struct Load {
+  Vec3d force{}, torque{};  // pN; pN um about the origin
+  void add(Vec3d x, Vec3d f, Vec3d couple = {}) {
+    force += f;
+    torque += cross(x, f) + couple;
   }
-  for (auto const& body : scene.bodies)
-    sum += body.motion == BodySpec::Motion::free ? body.force : Vec3d{std::nan(""), 0.0, 0.0};
-  for (Vec3d const& contact : points_of(frame, "body/contact_force")) sum += contact;
+};
+
+void add_applied_to_fiber(StoredFibers const& fibers, std::size_t i, ConstPoints nodes, Load& sum) {
+  Vec3d const minus_end = value_at_end(nodes, 0.0);
+  sum.add(value_at_end(nodes, 1.0), fibers.plus_end_force[i]);
+  sum.add(minus_end, fibers.contact_force[i], fibers.contact_torque[i]);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    sum.add(nodes[k], fibers.weight[static_cast<std::size_t>(fibers.first[i]) + k] * fibers.external_load[i]);
+  if (fibers.body[i] < 0)  // what holds it in space gives this back
+    sum.add(minus_end, -fibers.minus_end_force[i], -fibers.minus_end_torque[i]);
+}
+
+// From outside on plus ends, along fibers and on free bodies; NaN with held bodies, whose holder is not stored.
+Load applied_load(StoredFlow const& flow, Scene const& scene, Frame const& frame, StoredFibers const& fibers) {
+  Load sum;
+  ConstPoints const nodes = flow.radiation().nodes();
+  for (std::size_t i = 0; i < fibers.count(); ++i)
+    add_applied_to_fiber(fibers, i, nodes.subspan(fibers.first[i], fibers.node_count(i)), sum);
+  PointArray contact_forces = points_of(frame, "body/contact_force"), contact_torques = points_of(frame, "body/contact_torque");
+  contact_forces.resize(scene.bodies.size());
+  contact_torques.resize(scene.bodies.size());
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    BodySpec const& body = scene.bodies[b];
+    double const known = body.motion == BodySpec::Motion::free ? 1.0 : std::nan("");
+    sum.add(flow.radiation().body_pose(b).position, known * body.force + contact_forces[b], body.torque + contact_torques[b]);
+  }
   return sum;
 }
 
@@ -84,7 +106,9 @@ void add_moments(StoredFlow const& flow, Scene const& scene, SceneFlows const& f
   ForceMoments const sum = force_moments(flow, flows, scene.fluid.viscosity, fibers, centre);
   for (int k = 0; k < 3; ++k) row.push_back({std::string("net_force_") + axes[k], sum.force[k]});
   for (int k = 0; k < 3; ++k) row.push_back({std::string("net_torque_") + axes[k], sum.torque[k]});
-  row.push_back({"force_imbalance", norm(sum.force - applied_force(scene, frame, fibers))});
+  Load const applied = applied_load(flow, scene, frame, fibers);
+  row.push_back({"force_imbalance", norm(sum.force - applied.force)});
+  row.push_back({"torque_imbalance", norm(sum.torque - applied.torque)});
   for (auto const& [i, j] : {std::pair{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}})
     row.push_back({std::string("force_moment_") + axes[i] + axes[j], sum.moment(i, j)});
   row.push_back({"puller_index", sum.absolute > 0.0 ? -1.5 * sum.moment(0, 0) / sum.absolute : std::nan("")});
@@ -137,7 +161,7 @@ Observables nothing() {
   Observables row;
   for (char const* name :
        {"motor_power", "tip_power", "body_power", "net_force_x", "net_force_y", "net_force_z", "net_torque_x",
-        "net_torque_y", "net_torque_z", "force_imbalance", "force_moment_xx", "force_moment_yy", "force_moment_zz",
+        "net_torque_y", "net_torque_z", "force_imbalance", "torque_imbalance", "force_moment_xx", "force_moment_yy", "force_moment_zz",
         "force_moment_xy", "force_moment_xz", "force_moment_yz", "puller_index", "fluid_speed_mean",
         "fluid_speed_largest", "fluid_speed_ratio", "flow_anterior_x", "flow_posterior_x", "flow_along_fibers",
         "flow_in_anterior_asters_x", "no_slip_residual"})

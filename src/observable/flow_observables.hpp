@@ -5,6 +5,7 @@
 //                                     forces on plus ends, sum F . V(L), and of the loads on free bodies
 //   net_force_x, ..., net_torque_x, ...  pN, pN um about the origin, of fibers and bodies on the fluid
 //   force_imbalance                   pN, net force less all forces that act on fibers and bodies from outside
+//   torque_imbalance                  pN um, the same of torques about the origin
 //   force_moment_xx, _yy, _zz, _xy, _xz, _yz   pN um, symmetric traceless part of the first moment of the force on the
 //                                     fluid about the centre of the first body (stresslet), bodies included
 //   puller_index                      -1 (pusher) to 1 (puller along x): -3/2 M_xx over sum |x - x_0| |force|

@@ -70,7 +70,7 @@ ForceMoments force_moments(StoredFlow const& flow, SceneFlows const& flows, doub
                            Vec3d centre) {
   ForceMoments sum;
   for (std::size_t i = 0; i < fibers.position.size(); ++i)
-    sum.add(fibers.position[i], fibers.weight[i] * fibers.force_density[i], centre);
+    sum.add(flow.radiation().nodes()[i], fibers.weight[i] * fibers.force_density[i], centre);
   for (std::size_t b = 0; b < flows.bodies.size(); ++b)
     add_body(*flows.bodies[b], wall_velocity(flow, b), flow.radiation().body_pose(b), viscosity, centre, sum);
   return sum;

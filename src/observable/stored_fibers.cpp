@@ -72,11 +72,14 @@ StoredFibers stored_fibers(Scene const& scene, Frame const& frame) {
   fibers.minus_end_force = points_of(frame, "fiber/minus_end_force");
   fibers.minus_end_torque = points_of(frame, "fiber/minus_end_torque");
   fibers.contact_force = points_of(frame, "fiber/contact_force");
+  fibers.contact_torque = points_of(frame, "fiber/contact_torque");
   fibers.motor_load = numbers_of(frame, "fiber/motor_load");
   std::size_t const n = fibers.count();
   if (fibers.first.empty()) fibers.first.push_back(0);
   fibers.tip_state.resize(n);
-  for (auto* forces : {&fibers.plus_end_force, &fibers.minus_end_force, &fibers.minus_end_torque, &fibers.contact_force}) forces->resize(n);
+  for (auto* forces : {&fibers.plus_end_force, &fibers.minus_end_force, &fibers.minus_end_torque, &fibers.contact_force,
+                       &fibers.contact_torque})
+    forces->resize(n);
   fibers.motor_load.resize(n);
   add_scene_fibers(scene, fibers);
   if (fibers.material.size() != n || fibers.first.size() != n + 1 || fibers.position.size() != fibers.weight.size())
@@ -100,12 +103,12 @@ void differentiate(StoredFibers const& fibers, std::size_t fiber, Points tangent
   }
 }
 
-Vec3d value_at_plus_end(ConstPoints field) {
+Vec3d value_at_end(ConstPoints field, double alpha) {
   Eigen::VectorXd const x = points_of_fiber(static_cast<int>(field.size()), false), w = barycentric_weights(x);
   Vec3d sum{};
   double total = 0.0;
   for (std::size_t i = 0; i < field.size(); ++i) {
-    double const share = w[i] / (1.0 - x[i]);
+    double const share = w[i] / (alpha - x[i]);
     sum += share * field[i];
     total += share;
   }

@@ -19,6 +19,7 @@ struct StoredFibers {
   PointArray plus_end_force;               // [n_fiber] pN, on the plus end
   PointArray minus_end_force, minus_end_torque;  // [n_fiber] pN, pN um, on what holds the minus end, about that end
   PointArray contact_force;                // [n_fiber] pN, of the cortex on its nodes
+  PointArray contact_torque;               // [n_fiber] pN um, of the same about the minus end
   std::vector<double> motor_load;          // [n_fiber] pN/um, along the tangent
   std::vector<FiberMaterialSpec> material;  // [n_fiber]
   PointArray external_load;                // [n_fiber] pN/um, along the whole fiber
@@ -34,7 +35,7 @@ StoredFibers stored_fibers(Scene const& scene, Frame const& frame);
 // Unit tangents [n] and curvature vectors X_ss [n] (1/um) at the nodes of a fiber, overwritten.
 void differentiate(StoredFibers const& fibers, std::size_t fiber, Points tangents, Points curvatures);
 
-// A field given at the nodes of a fiber, extrapolated to its plus end.
-Vec3d value_at_plus_end(ConstPoints field);
+// A field given at the nodes of a fiber, extrapolated to an end: alpha = 0 or 1.
+Vec3d value_at_end(ConstPoints field, double alpha);
 
 }  // namespace asterflow

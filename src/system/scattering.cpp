@@ -144,7 +144,10 @@ ScatteringSolution Scattering::solve(ConstPoints background, ConstPoints guess) 
   std::vector<Vector6> loads(bodies_.size(), Vector6::Zero());
   if (radiation_)
     for (std::size_t b = 0; b < bodies_.size(); ++b) loads[b] = radiation_->load_of_incident(b, solution.incident);
-  std::size_t const n_fiber_node = fibers_.nodes().positions.size();
+  ConstPoints const fiber_nodes = fibers_.nodes().positions;
+  std::size_t const n_fiber_node = fiber_nodes.size();
+  solution.fiber_nodes.assign(fiber_nodes.begin(), fiber_nodes.end());
+  for (auto const& body : bodies_) solution.poses.push_back(body.pose);
   solution.force_density.resize(n_fiber_node);
   answer(ConstPoints(solution.incident).first(n_fiber_node), loads, true, solution.force_density, solution.motions);
   fibers_.add_dipoles(solution.force_density);

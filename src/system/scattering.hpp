@@ -60,6 +60,8 @@ struct ScatteringSolution {
   PointArray incident;           // z, um/s
   PointArray force_density;      // pN/um, on the fluid, at the fibers' nodes
   std::vector<Vector6> motions;  // q
+  PointArray fiber_nodes;        // um, where all this was solved
+  std::vector<RigidPose> poses;
   GmresResult gmres;             // with accurate sums
   int inner_iterations = 0;      // with rough sums
 };

@@ -42,8 +42,8 @@ PointArray find_points(std::vector<NamedArray> const& arrays, std::string const&
 }  // namespace
 
 std::vector<NamedArray> Simulation::body_frame() const {
-  PointArray positions, velocities, angular, contact_forces, contact_torques;
-  std::vector<double> orientations;
+  PointArray positions, velocities, angular, contact_forces, contact_torques, flow_positions;
+  std::vector<double> orientations, flow_orientations;
   for (auto const& body : bodies_) {
     positions.push_back(body.pose().position);
     auto const& q = body.orientation();
@@ -55,10 +55,17 @@ std::vector<NamedArray> Simulation::body_frame() const {
     contact_forces.push_back(to_vec3(contact.head<3>()));
     contact_torques.push_back(to_vec3(contact.tail<3>()));
   }
+  for (RigidPose const& pose : last_.poses) {
+    Eigen::Quaterniond const q(pose.rotation);
+    flow_positions.push_back(pose.position);
+    flow_orientations.insert(flow_orientations.end(), {q.w(), q.x(), q.y(), q.z()});
+  }
   contact_forces.resize(bodies_.size());  // none before the first step
   contact_torques.resize(bodies_.size());
   return {NamedArray::of("body/position", positions, "um"),
           {"body/orientation", {bodies_.size(), 4}, orientations, ""},
+          NamedArray::of("body/flow_position", flow_positions, "um"),
+          {"body/flow_orientation", {last_.poses.size(), 4}, flow_orientations, ""},
           NamedArray::of("body/velocity", velocities, "um/s"),
           NamedArray::of("body/angular_velocity", angular, "rad/s"),
           NamedArray::of("body/contact_force", contact_forces, "pN"),
@@ -69,7 +76,7 @@ std::vector<NamedArray> Simulation::fiber_frame() const {
   std::vector<std::int64_t> first{0}, holders;
   std::vector<double> lengths, weights, tension;
   PointArray minus_ends, plus_ends, positions;
-  PointArray forces = last_.force_density;
+  PointArray forces = last_.force_density, shifts = last_.fiber_nodes;
   for (std::size_t i = 0; i < fibers_.count(); ++i) {
     auto const& shape = fibers_.shape(i);
     FiberBasis const& basis = fiber_basis(fibers_.properties(i).n_node);
@@ -90,7 +97,11 @@ std::vector<NamedArray> Simulation::fiber_frame() const {
     tension.insert(tension.end(), own.begin(), own.end());
     tension.resize(positions.size());  // none before the first step, as the forces
   }
+  for (std::size_t i = 0; i < shifts.size(); ++i) shifts[i] = shifts[i] - positions[i];
   forces.resize(positions.size());
+  shifts.resize(positions.size());
+  NamedArray flow_shifts = NamedArray::of("fiber/flow_shift", shifts, "um");
+  flow_shifts.single = true;
   return {NamedArray::of("fiber/first", first),
           NamedArray::of("fiber/length", lengths, "um"),
           NamedArray::of("fiber/body", holders),
@@ -99,13 +110,14 @@ std::vector<NamedArray> Simulation::fiber_frame() const {
           NamedArray::of("fiber/position", positions, "um"),
           NamedArray::of("fiber/weight", weights, "um"),
           NamedArray::of("fiber/tension", tension, "pN"),
-          NamedArray::of("fiber/force_density", forces, "pN/um")};
+          NamedArray::of("fiber/force_density", forces, "pN/um"),
+          std::move(flow_shifts)};
 }
 
 std::vector<NamedArray> Simulation::fiber_end_frame() const {
   std::vector<std::int64_t> states;
   std::vector<double> motors;
-  PointArray plus_end_forces, minus_end_forces, minus_end_torques, contact_forces;
+  PointArray plus_end_forces, minus_end_forces, minus_end_torques, contact_forces, contact_torques;
   for (std::size_t i = 0; i < fibers_.count(); ++i) {
     auto const& ends = fibers_.ends(i);
     states.push_back(static_cast<std::int64_t>(tip_state(i)));
@@ -113,6 +125,7 @@ std::vector<NamedArray> Simulation::fiber_end_frame() const {
     minus_end_forces.push_back(ends.minus_end);
     minus_end_torques.push_back(ends.minus_end_torque);
     contact_forces.push_back(ends.contact);
+    contact_torques.push_back(ends.contact_torque);
     motors.push_back(fibers_.load(i).motor);
   }
   return {NamedArray::of("fiber/tip_state", states),
@@ -120,6 +133,7 @@ std::vector<NamedArray> Simulation::fiber_end_frame() const {
           NamedArray::of("fiber/minus_end_force", minus_end_forces, "pN"),
           NamedArray::of("fiber/minus_end_torque", minus_end_torques, "pN um"),
           NamedArray::of("fiber/contact_force", contact_forces, "pN"),
+          NamedArray::of("fiber/contact_torque", contact_torques, "pN um"),
           NamedArray::of("fiber/motor_load", motors, "pN/um")};
 }
 

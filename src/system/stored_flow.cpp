@@ -20,16 +20,13 @@ StoredFlow::StoredFlow(Scene const& scene, SceneFlows const& flows, Frame const&
                                  scene.file));
   radiation_ = std::make_unique<Radiation>(flows.bodies, flows.periphery, radiation_options(scene, flows));
 
-  auto const positions = points_of(frame, "body/position");
-  auto const orientations = orientations_of(frame);
+  auto const poses = flow_poses(frame);
   auto const velocities = points_of(frame, "body/velocity"), turning = points_of(frame, "body/angular_velocity");
-  std::vector<RigidPose> poses;
-  for (std::size_t b = 0; b < positions.size(); ++b) {
-    poses.push_back({positions[b], orientations.at(b).toRotationMatrix()});
+  for (std::size_t b = 0; b < poses.size(); ++b) {
     motions_.emplace_back();
     motions_.back() << to_eigen(velocities.at(b)), to_eigen(turning.at(b));
   }
-  auto const nodes = points_of(frame, "fiber/position");
+  auto const nodes = flow_nodes(frame);
   auto const weights = numbers_of(frame, "fiber/weight");
   auto const stored_first = integers_of(frame, "fiber/first");
   std::vector<std::size_t> first(stored_first.begin(), stored_first.end());
