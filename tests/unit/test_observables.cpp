@@ -175,7 +175,9 @@ std::string const crowded_cell = R"(
 void expect_balance(std::string const& mechanism, std::string const& held) {
   auto const seen = observed_after(crowded_cell + mechanism, 1.0);
   EXPECT_GT(value(seen.fibers, held), 0.0);
-  EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-8 * value(seen.fibers, "plus_end_force"));
+  double const force = value(seen.fibers, "plus_end_force");
+  EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-8 * force);
+  EXPECT_LT(value(seen.flow, "torque_imbalance"), 1e-8 * force * 9.0);  // the lever of the cell
 }
 
 }  // namespace
@@ -198,6 +200,23 @@ TEST(Observables, of_repelled_fibers_balance_the_forces_of_the_cortex) {
   EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-8 * 5.0);  // of the pull of all motors: 12 fibers, 0.1 / um, 0.9 pN
 }
 
+TEST(Observables, of_a_turning_triaxial_body_balance_whatever_the_step) {
+  auto const seen = observed_after(R"(
+    [periphery]
+    shape = "sphere"
+    radius = 8.0
+    [[body]]
+    shape = "ellipsoid"
+    semi_axes = [2.0, 1.0, 0.6]
+    position = [2.0, 0.0, 1.0]
+    force = [-6.0, -2.0, 0.0]
+    torque = [1.0, 3.0, -2.0]
+    [run]
+    accuracy = 1e-1)", 1.0);
+  EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-8 * 6.0);
+  EXPECT_LT(value(seen.flow, "torque_imbalance"), 1e-8 * 6.0 * 2.0);
+}
+
 TEST(Observables, of_trailing_cargo_balance_and_hold_its_stress) {
   std::string const fiber = "[fluid]\nviscosity = 1.7\n[[fiber]]\nlength = 6.0\n[cytoplasmic_pulling]\n"
                             "motor_density = 0.5\nmotor_force = 0.8\n";
@@ -206,6 +225,7 @@ TEST(Observables, of_trailing_cargo_balance_and_hold_its_stress) {
   EXPECT_NEAR(value(seen.flow, "force_moment_yy"), 1.0 / 3.0 * 0.5 * 0.8 * 0.2 * 6.0, 1e-8);
   EXPECT_GT(value(seen.flow, "puller_index"), 0.0);
   EXPECT_LT(value(seen.flow, "force_imbalance"), 1e-12);
+  EXPECT_LT(value(seen.flow, "torque_imbalance"), 1e-12);
   // The fiber does not feel its own cargo, and its motors work as before.
   EXPECT_NEAR(value(seen.flow, "motor_power"), value(without.flow, "motor_power"), 1e-12);
   EXPECT_GT(value(seen.flow, "motor_power"), 0.1);
