@@ -1,10 +1,11 @@
 #pragma once
-// Nodes of different fibers closer to each other than their spacing can resolve. Points of force whose weights w stand for
-// pieces of line must not come closer than about w / 8: there the flow of one at the other, w f / (8 pi mu r), exceeds the
-// fiber's own mobility, 12 f / (8 pi mu), and forces grow without bound, although two lines that cross at the distance r
-// only feel 2 log(w / r) f / (8 pi mu). Below delta = (w_i + w_j) / 8 the Stokeslet (I + r r / r^2) / r is therefore replaced by
-//   (a(r / delta) I + b(r / delta) r r / r^2) / delta,   a(x) = (3 - x^2) / 2,  b(x) = (5 x^2 - 3 x^4) / 2,
-// which joins it with its first derivative and is 3 I / (2 delta) at r = 0: fibers may cross.
+// Nodes of different fibers closer to each other than their spacing can resolve. A point of force whose weight w stands for a
+// piece of line must not act as a point there: the flow of one at the other, w f / (8 pi mu r), would exceed the fiber's own
+// mobility, 12 f / (8 pi mu), and bundles would move against the forces on them, although two lines at the distance r only
+// feel 2 log(w / r) f / (8 pi mu). A node acts and feels as a sphere of radius a = 0.3 w instead: between nodes with a and b,
+//   r < a + b   mean flow over one sphere of a force spread over the other [Rotne & Prager 1969; Zuk et al. 2014, Eq. 3.7]:
+//               no forces move against themselves; 4 / (3 max(a, b)) I at r = 0, so fibers may cross
+//   beyond      ((1 + q / 3) I + (1 - q) r r / r^2) / r, q = (a^2 + b^2) / r^2, fading to the Stokeslet at 1.25 (a + b)
 
 #include "base/arrays.hpp"
 
