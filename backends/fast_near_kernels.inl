@@ -52,9 +52,12 @@ struct NearStresslet {
     Real const* n = q + 3;
     Number const first = inside(-a);
     Number const rq = r[0] * q[0] + r[1] * q[1] + r[2] * q[2], rn = r[0] * n[0] + r[1] * n[1] + r[2] * n[2];
-    // The fifth power of 1 / r alone would overflow in float.
-    Number const singular = inverse * inverse * inverse * (rq * inverse) * (rn * inverse);
-    Number const second = inside((singular - b * rq * rn) * -6.0f);
+    Number const cube = inverse * inverse * inverse;
+    Number second;
+    if constexpr (requires { inverse.slope; })  // the slope of the fifth power alone would overflow in float
+      second = inside((cube * (rq * inverse) * (rn * inverse) - b * rq * rn) * -6.0f);
+    else
+      second = inside((cube * (inverse * inverse) - b) * -6.0f) * rq * rn;
     Number const along = second + first * (q[0] * n[0] + q[1] * n[1] + q[2] * n[2]);
     Number const by_q = first * rn, by_n = first * rq;
     for (int d = 0; d < 3; ++d) u[d] += along * r[d] + by_q * q[d] + by_n * n[d];

@@ -12,8 +12,8 @@
 namespace asterflow {
 namespace {
 
-// Below this distance the two-part float coordinates are not accurate enough.
-constexpr double close_distance = 1e-8;
+// Below this distance the two-part float coordinates are not accurate enough, and fifth powers of 1 / r overflow in float.
+constexpr double close_distance = 1e-7;
 
 constexpr long list_span = 65536;  // sources one segment of a list can point to
 

@@ -27,8 +27,8 @@ Costs costs(FastParameters const& p, int components, bool lists_once) {
   double const in_float = 4.0 * width2 + 100.0, in_double = 7.2 * width2 + 96.0;
   double const part = p.single ? in_float : in_double;
   double const pair = (p.single ? 0.019 : 0.038) * ((p.refinement_steps > 0 ? 25.0 : 18.0) + 2.0 * terms);
-  double const direction = !lists_once ? 1.0 : p.single ? 0.8 : 0.65;
-  return {direction * pair, (p.single ? 1.5 : 3.7) * (components + 3), (components / 6.0 + 0.5) * part};
+  double const direction = !lists_once ? 1.0 : p.single ? 0.8 : 0.65, normals = components > 3 ? 1.25 : 1.0;
+  return {direction * normals * pair, (p.single ? 1.5 : 3.7) * (components + 3), (components / 6.0 + 0.5) * part};
 }
 
 // Of the 27 boxes around a leaf with n targets, the part that a group of `lanes` of them has within the cutoff: the
