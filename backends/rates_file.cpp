@@ -1,6 +1,7 @@
 #include "backends/rates_file.hpp"
 
 #include "backends/backend.hpp"
+#include "backends/default_space.hpp"
 #include "base/cache_folder.hpp"
 #include "base/parallel.hpp"
 

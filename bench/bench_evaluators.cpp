@@ -12,7 +12,6 @@
 #include "base/timer.hpp"
 
 #include <CLI/CLI.hpp>
-#include <Kokkos_Core.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -114,7 +113,7 @@ int main(int argc, char** argv) {
   if (choice.dry_run) {
     choice = {{"fast", "auto"}, {"stokeslet", "stresslet", "rotlet"}, bench::distributions(), {1e-3}, {600}, 1, true};
   }
-  Kokkos::ScopeGuard const kokkos;
+  ParallelScope const threads;
   try {
     run(choice);
   } catch (std::exception const& error) {

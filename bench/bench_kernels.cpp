@@ -157,7 +157,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   if (options.dry_run) options = {600, 1, true};
   setenv("OMP_PROC_BIND", "false", 0);  // Kokkos would otherwise advise on standard output, where the JSON goes
-  Kokkos::ScopeGuard const kokkos;
+  ParallelScope const threads;
   run(options);
   return 0;
 }

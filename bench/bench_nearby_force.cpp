@@ -4,10 +4,10 @@
 //   bench_nearby_force inside|outside ORDER a b c [RINGS]
 // ORDER 0: that of `run.accuracy` = 1e-6. RINGS: other than those of a run.
 
+#include "base/parallel.hpp"
 #include "kernels/stokeslet.hpp"
 #include "surface/dirichlet_flow.hpp"
 
-#include <Kokkos_Core.hpp>
 #include <fmt/format.h>
 
 #include <array>
@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "usage: bench_nearby_force inside|outside ORDER a b c [RINGS]\n");
     return 1;
   }
-  Kokkos::ScopeGuard const kokkos(argc, argv);
+  ParallelScope const threads;
   bool const is_inside = std::string_view(argv[1]) == "inside";
   ShapeSpec spec;
   spec.kind = ShapeSpec::Kind::ellipsoid;

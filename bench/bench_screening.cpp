@@ -3,11 +3,11 @@
 //   bench_screening ORDER [ACCURACY] [a b c]
 // The reference has order 56 and images that follow the curvature. samples: nodes take samples of forces; projected: surface/screened_forces.hpp.
 
+#include "base/parallel.hpp"
 #include "kernels/stokeslet.hpp"
 #include "system/flows.hpp"
 #include "system/wall_images.hpp"
 
-#include <Kokkos_Core.hpp>
 #include <fmt/format.h>
 
 #include <array>
@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "usage: bench_screening ORDER [ACCURACY] [a b c]\n");
     return 1;
   }
-  Kokkos::ScopeGuard const kokkos(argc, argv);
+  ParallelScope const threads;
   int const order = std::atoi(argv[1]);
   double const accuracy = argc > 2 ? std::atof(argv[2]) : 1e-6;
   Vec3d const axes = argc > 5 ? Vec3d{std::atof(argv[3]), std::atof(argv[4]), std::atof(argv[5])} : Vec3d{25, 15, 15};

@@ -7,7 +7,6 @@
 #include "base/timer.hpp"
 #include "system/simulation.hpp"
 
-#include <Kokkos_Core.hpp>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -67,7 +66,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: bench_step SCENE.toml [STEPS] [table.key=value ...]\n");
     return 1;
   }
-  Kokkos::ScopeGuard const kokkos;
+  ParallelScope const threads;
   try {
     run(argv[1], argc > 2 ? std::atoi(argv[2]) : 5, {argv + std::min(argc, 3), argv + argc});
   } catch (std::exception const& error) {

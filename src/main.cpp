@@ -2,6 +2,7 @@
 //   0 done   1 bad input   2 numerical failure, state saved   3 internal error
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "command/check.hpp"
 #include "command/drag.hpp"
 #include "command/export.hpp"
@@ -13,8 +14,6 @@
 #include "command/sum.hpp"
 #include "command/torque.hpp"
 #include "io/versions.hpp"
-
-#include <Kokkos_Core.hpp>
 
 #include <csignal>
 #include <cstdio>
@@ -58,7 +57,7 @@ int run(int argc, char** argv) {
   if (!chosen) return report("asterflow: a command is missing (see asterflow --help)", 1);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error like a full disk
   setenv("OMP_PROC_BIND", "false", 0);  // several runs on one machine must not share a core; also silences Kokkos
-  Kokkos::ScopeGuard const kokkos;
+  asterflow::ParallelScope const threads;
   chosen();
   return 0;
 }

@@ -1,37 +1,38 @@
 #pragma once
 // Loops over host threads. Each index is handled by one thread, so results do not depend on the
 // number of threads as long as the body writes only what belongs to its index.
+// The threads are Kokkos's, but no header of Kokkos is read here: code that only loops compiles sooner, and by
+// the host's compiler where Kokkos wants a device's.
 
-#include <Kokkos_Core.hpp>
-
-#include <algorithm>
-#include <exception>
-#include <mutex>
 #include <string>
 
 namespace asterflow {
 
-using HostSpace = Kokkos::DefaultHostExecutionSpace;
+// Starts Kokkos, its host threads and its device, and stops them at the end of the scope. One a program.
+class ParallelScope {
+ public:
+  ParallelScope();
+  ~ParallelScope();
+  ParallelScope(ParallelScope const&) = delete;
+  ParallelScope& operator=(ParallelScope const&) = delete;
+};
 
-inline int thread_count() { return HostSpace().concurrency(); }
+std::string kokkos_version();  // "4.6.1"
+
+int thread_count();
+
+// call(body, begin, end) for ranges that together are [0, n); n may be 0. An exception is rethrown here.
+using RangeCall = void (*)(void const* body, long begin, long end);
+void parallel_ranges(char const* label, long n, RangeCall call, void const* body);
 
 // body(i) for i in [0, n); work per index may be uneven. An exception thrown by a body is rethrown here.
 template <class Body>
 void parallel_for(char const* label, long n, Body const& body) {
-  std::exception_ptr failure;
-  std::mutex guard;
-  using Policy = Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>, Kokkos::IndexType<long>>;
-  Policy policy(0, n);
-  policy.set_chunk_size(static_cast<int>(std::max(1L, n / (16 * thread_count()))));  // even and uneven work alike
-  Kokkos::parallel_for(std::string("asterflow::") + label, policy, [&](long i) {
-    try {
-      body(i);
-    } catch (...) {
-      std::scoped_lock lock(guard);
-      if (!failure) failure = std::current_exception();
-    }
-  });
-  if (failure) std::rethrow_exception(failure);
+  RangeCall const call = [](void const* data, long begin, long end) {
+    auto const& each = *static_cast<Body const*>(data);
+    for (long i = begin; i < end; ++i) each(i);
+  };
+  parallel_ranges(label, n, call, &body);
 }
 
 }  // namespace asterflow
