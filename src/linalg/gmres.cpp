@@ -11,6 +11,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Modified Gram-Schmidt loses no digit of a solution [Paige, Rozloznik & Strakos 2006], but a basis vector that is
+// nearly all rounding would not be told from an exhausted space.
+constexpr double reorthogonalise = 1e-3;  // what is left of a vector over what is taken out
+
 Eigen::Map<VectorXd const> as_eigen(ConstVector v) { return {v.data(), static_cast<Eigen::Index>(v.size())}; }
 
 // Least-squares problem min |beta e1 - H y| kept triangular by Givens rotations, one column at a time.
@@ -90,13 +94,15 @@ GmresResult solve_gmres(LinearOperator const& a, LinearOperator const& precondit
       ++result.iterations;
       VectorXd column(j + 2);
       column.setZero();
-      for (int pass = 0; pass < 2; ++pass)  // Gram-Schmidt twice is enough
+      for (int pass = 0; pass < 2; ++pass) {  // modified Gram-Schmidt, again where cancellation would show
         for (int i = 0; i <= j; ++i) {
           double const h = v[i].dot(w);
           column[i] += h;
           w -= h * v[i];
         }
-      column[j + 1] = w.norm();
+        column[j + 1] = w.norm();
+        if (column[j + 1] > reorthogonalise * column.head(j + 1).norm()) break;
+      }
       bool const exhausted = column[j + 1] <= 1e-15 * column.head(j + 1).norm();
       if (!exhausted) v.emplace_back(w / column[j + 1]);
       result.residual = hessenberg.append(j, column) / reference;

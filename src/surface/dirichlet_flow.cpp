@@ -50,6 +50,9 @@ double ring_stretch(Shape const& shape) {
   return std::min(length, 1.2 * std::sqrt(length));
 }
 
+// Place of the shell of that scale over pi: scale = (1 + cos psi) / 2.
+double psi_of(double scale) { return 2.0 / std::numbers::pi * std::atan2(std::sqrt(1.0 - scale), std::sqrt(scale)); }
+
 }  // namespace
 
 DirichletFlow::DirichletFlow(Surface surface, Side side, double accuracy)
@@ -87,10 +90,22 @@ void DirichletFlow::plan(ConstPoints targets, Targets& result) const {
         throw NumericalError(fmt::format("target {} at ({}, {}, {}) um lies on the wrong side of a surface, scale {}", i,
                                          targets[i].x, targets[i].y, targets[i].z, at.rho));
       double const scale = std::min(1.0, side_ == Side::interior ? at.rho : 1.0 / at.rho);
-      double const psi = 2.0 / std::numbers::pi * std::atan2(std::sqrt(1.0 - scale), std::sqrt(scale));
-      result.points_[i] = {ShellTable::locate(psi, surface_->to_polar(at.direction)), side_ == Side::interior ? 1.0 : scale};
+      result.points_[i] = {ShellTable::locate(psi_of(scale), surface_->to_polar(at.direction)), side_ == Side::interior ? 1.0 : scale};
     }
   });
+}
+
+void DirichletFlow::Targets::within(double scale, Targets& inside, std::vector<std::size_t>& places) const {
+  inside.points_.clear();
+  places.clear();
+  double const last = psi_of(std::min(scale, 1.0));
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (points_[i].table.psi < last) continue;
+    double const c = std::cos(0.5 * std::numbers::pi * points_[i].table.psi);
+    inside.points_.push_back(points_[i]);
+    inside.points_.back().table.psi = psi_of(std::min(1.0, c * c / scale));
+    places.push_back(i);
+  }
 }
 
 void DirichletFlow::add_velocity(ConstPoints boundary_velocity, Targets const& targets, Points velocity) const {

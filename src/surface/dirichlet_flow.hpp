@@ -27,6 +27,10 @@ class DirichletFlow {
   class Targets {
    public:
     std::size_t size() const { return points_.size(); }
+    std::size_t memory() const { return sizeof(Point) * points_.capacity(); }  // bytes
+    // Interior: those within the surface's copy of that scale about its centre, as targets of the copy, and their places
+    // among all; both overwritten.
+    void within(double scale, Targets& inside, std::vector<std::size_t>& places) const;
 
    private:
     friend class DirichletFlow;

@@ -10,7 +10,8 @@
 namespace asterflow {
 
 // velocity [n] (um/s) -= sum over the other nodes of the same fiber; strengths [n] in pN over viscosity.
-// Fiber i owns the nodes [first[i], first[i + 1]) at `positions` [n] (um).
+// Fiber i owns the nodes [first[i], first[i + 1]) at `positions` [n] (um). Real: double or float.
+template <class Real>
 void subtract_own_sums(ConstPoints positions, std::vector<std::size_t> const& first, ConstPoints strengths, Points velocity);
 
 }  // namespace asterflow

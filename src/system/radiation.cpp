@@ -16,6 +16,7 @@ namespace {
 
 constexpr double rough_accuracy = 1e-3;
 constexpr double single_precision = 1e-5;  // from here on floats do
+constexpr double rough_images = 4e-3;      // relative error of their flow deep inside
 constexpr double largest_excess = 10.0;    // of the error of sums, in vectors whose flows cancel
 
 PointArray to_body_frame(RigidPose const& pose, ConstPoints points) {
@@ -50,6 +51,8 @@ Radiation::Radiation(std::vector<Flow> body_flows, Flow periphery_flow, Radiatio
   if (periphery_ && options_.has_images_behind_periphery) {
     if (!options_.near_periphery) options_.near_periphery.emplace(periphery_->surface(), Side::interior, false);
     images_.emplace_back(*options_.near_periphery, options_.screened_forces);
+    deep_targets_.emplace_back(periphery_, false, options_.accuracy);
+    deep_targets_.emplace_back(periphery_, true, rough_images);
   }
 }
 
@@ -110,13 +113,20 @@ void Radiation::plan_fibers(FiberNodes const& fibers) {
   }
   stokeslets_->set_points(fibers.positions, nodes_);
   if (rough_stokeslets_) rough_stokeslets_->set_points(fibers.positions, nodes_);
+  plan_images(fibers);
+  close_nodes_.find(fibers.positions, fibers.weights, first_fiber_node_);
+  strengths_.resize(n_fiber_nodes_);
+}
+
+void Radiation::plan_images(FiberNodes const& fibers) {
   if (options_.has_images_in_bodies)
     for (std::size_t b = 0; b < bodies_.size(); ++b)
       images_[b].place(poses_[b], fibers.positions, fibers.weights, first_fiber_node_);
-  if (periphery_ && options_.has_images_behind_periphery)
-    images_.back().place({}, fibers.positions, fibers.weights, first_fiber_node_);
-  close_nodes_.find(fibers.positions, fibers.weights, first_fiber_node_);
-  strengths_.resize(n_fiber_nodes_);
+  if (deep_targets_.empty()) return;
+  images_.back().place({}, fibers.positions, fibers.weights, first_fiber_node_);
+  for (bool const is_rough : {false, true})
+    deep_targets_[is_rough].place(ConstPoints(nodes_).first(n_receiving_images(bodies_.size(), is_rough)), periphery_targets_,
+                                  is_rough ? images_.back().n_merged() : images_.back().size());
 }
 
 Vector6 Radiation::load_in_body_frame(std::size_t body, ConstPoints incident) const {
@@ -152,18 +162,28 @@ PointArray Radiation::periphery_wall_velocity(ConstPoints incident) const {
   return wall;
 }
 
+// The nodes of the periphery itself, which come last, take its images otherwise where these are accurate.
+std::size_t Radiation::n_receiving_images(std::size_t wall, bool is_rough) const {
+  return is_rough || wall < bodies_.size() ? nodes_.size() : first_.back();
+}
+
 void Radiation::add_images(bool is_rough, Points received) const {
   ConstPoints const nodes = nodes_;
   for (std::size_t i = 0; i < images_.size(); ++i) {
-    bool const takes_samples = is_rough || i < bodies_.size();  // at the nodes of the wall itself
-    std::size_t const n = takes_samples ? nodes.size() : first_.back();
-    if (is_rough)
-      images_[i].add_rough_velocity(strengths_, nodes.first(n), received.first(n));
-    else if (options_.accuracy >= single_precision)
-      images_[i].add_velocity<float>(strengths_, nodes.first(n), received.first(n));
+    std::size_t const n = n_receiving_images(i, is_rough);
+    auto const sum = [&](ConstPoints targets, Points velocity) {
+      if (is_rough)
+        images_[i].add_rough_velocity(strengths_, targets, velocity);
+      else if (options_.accuracy >= single_precision)
+        images_[i].add_velocity<float>(strengths_, targets, velocity);
+      else
+        images_[i].add_velocity<double>(strengths_, targets, velocity);
+    };
+    if (i < bodies_.size())
+      sum(nodes, received);
     else
-      images_[i].add_velocity<double>(strengths_, nodes.first(n), received.first(n));
-    if (!takes_samples) images_[i].add_velocity_at_wall(strengths_, nodes.subspan(n), received.subspan(n));
+      deep_targets_[is_rough].add_velocity(sum, received.first(n));
+    if (n < nodes.size()) images_[i].add_velocity_at_wall(strengths_, nodes.subspan(n), received.subspan(n));
     images_[i].add_own_resolution(strengths_, nodes_, received);
   }
 }
@@ -176,7 +196,8 @@ void Radiation::add_fibers(ConstPoints force_density, Exchange kind, Points rece
   (is_rough ? rough_stokeslets_ : stokeslets_)->add_velocity(strengths_, received);
   add_images(is_rough, received);
   close_nodes_.add_correction(strengths_, received);
-  subtract_own_sums(ConstPoints(nodes_).first(n_fiber_nodes_), first_fiber_node_, strengths_, received);
+  auto const subtract = is_rough ? subtract_own_sums<float> : subtract_own_sums<double>;
+  subtract(ConstPoints(nodes_).first(n_fiber_nodes_), first_fiber_node_, strengths_, received);
 }
 
 void Radiation::add_body(std::size_t body, Vector6 const& motion, ConstPoints incident, BodyTargets const& targets,
@@ -235,6 +256,7 @@ void Radiation::add_velocity(ConstPoints force_density, std::vector<Vector6> con
 std::size_t Radiation::memory() const {
   std::size_t bytes = sizeof(Vec3d) * (nodes_.size() + strengths_.size()) + sizeof(double) * weights_.size();
   for (auto const& images : images_) bytes += images.memory();
+  for (auto const& targets : deep_targets_) bytes += targets.memory();
   for (auto const& flow : bodies_) bytes += flow->memory();
   if (periphery_) bytes += periphery_->memory();
   return bytes + (stokeslets_ ? stokeslets_->memory() : 0) +

@@ -13,6 +13,7 @@
 #include "base/rigid.hpp"
 #include "surface/dirichlet_flow.hpp"
 #include "system/close_nodes.hpp"
+#include "system/deep_targets.hpp"
 #include "system/wall_images.hpp"
 
 #include <memory>
@@ -99,7 +100,9 @@ class Radiation {
   Vector6 motion_at_same_force(std::size_t body, Vector6 const& motion, ConstPoints before, ConstPoints now) const;
   PointArray periphery_wall_velocity(ConstPoints incident) const;
   void add_fibers(ConstPoints force_density, Exchange kind, Points received);
+  void plan_images(FiberNodes const& fibers);
   void add_images(bool is_rough, Points received) const;
+  std::size_t n_receiving_images(std::size_t wall, bool is_rough) const;  // of the nodes, the first
   struct BodyTargets {  // of one body: nodes [first, last) but for [gap, gap_end)
     std::size_t first = 0, last = 0, gap = 0, gap_end = 0;
     DirichletFlow::Targets plan;
@@ -124,6 +127,7 @@ class Radiation {
   PointArray nodes_;
   std::vector<double> weights_;
   std::vector<WallImages> images_;  // in each body, then behind the periphery
+  std::vector<DeepTargets> deep_targets_;  // of the images behind the periphery: accurate, rough
   std::vector<BodyTargets> neighbours_;          // per body: nodes of the other bodies
   std::vector<BodyTargets> others_;              // per body: nodes of fibers and periphery
   DirichletFlow::Targets periphery_targets_;     // all nodes but its own

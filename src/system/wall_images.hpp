@@ -36,6 +36,7 @@ class WallImages {
   void place(RigidPose const& pose, ConstPoints positions, ConstVector weights, std::vector<std::size_t> const& first);
 
   std::size_t size() const { return images_.size(); }
+  std::size_t n_merged() const { return merged_.size(); }  // that rough velocities sum
   std::size_t memory() const {  // bytes
     return images_.capacity() * sizeof(Image) + shares_.capacity() * sizeof(Share) + merged_.capacity() * sizeof(std::size_t);
   }
