@@ -55,10 +55,7 @@ std::vector<RigidPose> flow_poses(Frame const& frame) {
 }
 
 PointArray flow_nodes(Frame const& frame) {
-  PointArray nodes = points_of(frame, "fiber/position");
-  PointArray const shifts = points_of(frame, "fiber/flow_shift");
-  for (std::size_t i = 0; i < shifts.size(); ++i) nodes.at(i) += shifts[i];
-  return nodes;
+  return points_of(frame, find_array(frame, "fiber/flow_position") ? "fiber/flow_position" : "fiber/position");
 }
 
 std::vector<BodySpec> bodies_at(std::vector<BodySpec> bodies, Frame const& frame) {

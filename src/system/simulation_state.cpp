@@ -76,7 +76,7 @@ std::vector<NamedArray> Simulation::fiber_frame() const {
   std::vector<std::int64_t> first{0}, holders;
   std::vector<double> lengths, weights, tension;
   PointArray minus_ends, plus_ends, positions;
-  PointArray forces = last_.force_density, shifts = last_.fiber_nodes;
+  PointArray forces = last_.force_density;
   for (std::size_t i = 0; i < fibers_.count(); ++i) {
     auto const& shape = fibers_.shape(i);
     FiberBasis const& basis = fiber_basis(fibers_.properties(i).n_node);
@@ -97,11 +97,8 @@ std::vector<NamedArray> Simulation::fiber_frame() const {
     tension.insert(tension.end(), own.begin(), own.end());
     tension.resize(positions.size());  // none before the first step, as the forces
   }
-  for (std::size_t i = 0; i < shifts.size(); ++i) shifts[i] = shifts[i] - positions[i];
   forces.resize(positions.size());
-  shifts.resize(positions.size());
-  NamedArray flow_shifts = NamedArray::of("fiber/flow_shift", shifts, "um");
-  flow_shifts.single = true;
+  ConstPoints const flow_positions = last_.fiber_nodes.empty() ? positions : last_.fiber_nodes;
   return {NamedArray::of("fiber/first", first),
           NamedArray::of("fiber/length", lengths, "um"),
           NamedArray::of("fiber/body", holders),
@@ -111,7 +108,7 @@ std::vector<NamedArray> Simulation::fiber_frame() const {
           NamedArray::of("fiber/weight", weights, "um"),
           NamedArray::of("fiber/tension", tension, "pN"),
           NamedArray::of("fiber/force_density", forces, "pN/um"),
-          std::move(flow_shifts)};
+          NamedArray::of("fiber/flow_position", flow_positions, "um")};
 }
 
 std::vector<NamedArray> Simulation::fiber_end_frame() const {
