@@ -151,7 +151,7 @@ Matrix6 DirichletFlow::resistance() const {
     for (std::size_t i = 0; i < motion.size(); ++i) motion[i] = column < 3 ? axis : cross(axis, surface_->nodes()[i]);
     result.col(column) = load(motion);
   }
-  return 0.5 * (result + result.transpose());
+  return result;
 }
 
 std::size_t DirichletFlow::memory() const {

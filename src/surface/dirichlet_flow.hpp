@@ -52,7 +52,7 @@ class DirichletFlow {
 
   // Exterior: force (pN) and torque (pN um) about the origin of the shape's frame on the fluid, viscosity 1.
   Vector6 load(ConstPoints boundary_velocity) const;
-  // Exterior: load of the six unit rigid motions (translation, rotation about the origin); symmetric.
+  // Exterior: load of the six unit rigid motions (translation, rotation about the origin); symmetric to the grid's accuracy.
   Matrix6 resistance() const;
   std::size_t memory() const;  // bytes
 
