@@ -43,7 +43,7 @@ PairSums<Real> loops_for(InstructionSet instructions, int i_kernel, double accur
 class DirectHost final : public Evaluator {
  public:
   DirectHost(InstructionSet instructions, KernelTraits const& kernel, double accuracy)
-      : instructions_(instructions), kernel_(kernel), in_double_(kernel, loops_for<double>(instructions, kernel.index, accuracy)) {
+      : instructions_(instructions), kernel_(kernel), accuracy_(accuracy), in_double_(kernel, loops_for<double>(instructions, kernel.index, accuracy)) {
     auto const loops = loops_for<float>(instructions, kernel.index, accuracy);
     if (loops.add_one_way) in_float_.emplace(kernel, loops);
   }
@@ -53,7 +53,7 @@ class DirectHost final : public Evaluator {
     Box const box = bounding_box(sources, targets);
     n_source_ = sources.size();
     n_target_ = targets.size();
-    uses_float_ = in_float_ && !has_close_pair(sources, targets, closest_in_float * box.extent());
+    uses_float_ = in_float_ && !may_cancel() && !has_close_pair(sources, targets, closest_in_float * box.extent());
     if (uses_float_)
       in_float_->set_points(sources, targets, normals, frame_of<float>(box));
     else
@@ -83,8 +83,15 @@ class DirectHost final : public Evaluator {
   std::size_t memory() const override { return in_double_.memory() + (in_float_ ? in_float_->memory() : 0); }
 
  private:
+  // At few targets velocities may all be small by chance, and what float leaves be too much of them.
+  bool may_cancel() const {
+    constexpr std::size_t few = 32;
+    return n_target_ < few && accuracy_ < 10.0 * float_rounding;
+  }
+
   InstructionSet instructions_;
   KernelTraits kernel_;
+  double accuracy_;
   PackedSum<double> in_double_;
   std::optional<PackedSum<float>> in_float_;
   bool uses_float_ = false;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace asterflow {
 namespace {
@@ -121,6 +122,7 @@ class CheckedFast final : public FastEvaluator {
       error += checked_[k / rows].stands_for * dot(difference, difference);
     }
     double const size = square(result);
+    if (!std::isfinite(size)) return std::numeric_limits<double>::max();  // distances whose powers overflow
     if (size == 0.0) return error > 0.0 ? 1.0 / options_.accuracy : 0.0;
     return std::sqrt(error / size) / options_.accuracy;
   }

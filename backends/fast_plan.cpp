@@ -261,8 +261,8 @@ class Search {
 }  // namespace
 
 Plan best_plan(std::string_view kernel, ConstPoints sources, ConstPoints targets, FastParameters const& p) {
-  require_finite(sources, "source");
-  require_finite(targets, "target");
+  require_finite(sources, "source", largest_place);
+  require_finite(targets, "target", largest_place);
   long const n = static_cast<long>(sources.size() + targets.size()) / 2;
   if (sources.empty() || targets.empty() || n <= p.capacity) return {};
   Costs const c = costs(p, n_component(fast_kernel(kernel)), is_same(sources, targets) && !p.gradient);

@@ -213,6 +213,15 @@ TEST(All_backends, follow_points_that_move_and_change_in_number) {
   }
 }
 
+TEST(All_backends, keep_the_accuracy_at_few_targets_where_velocities_cancel) {
+  Problem p = random_problem(2000, 1);
+  for (std::uint64_t seed = 10; seed < 50; ++seed) {
+    p.targets = random_points(1, seed);
+    for (auto const& kernel : kernels())
+      EXPECT_LE(difference(p.velocity("direct", kernel, 1e-6), p.velocity("reference", kernel, 1e-15)), 1e-6) << kernel << seed;
+  }
+}
+
 TEST(All_backends, refuse_coordinates_that_are_not_finite) {
   for (double const bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     for (auto const& backend : backend_names()) {

@@ -169,6 +169,15 @@ TEST_P(FastSum, refuses_points_that_are_not_numbers) {
   }
 }
 
+TEST_P(FastSum, takes_a_target_very_far_away_and_refuses_one_farther) {
+  PointSet c = point_set(GetParam(), "uniform", 600);
+  c.targets = c.sources;
+  c.targets.push_back({1e50, 0.0, 0.0});
+  EXPECT_LE(error(GetParam(), 1e-6, c), 1e-6);
+  c.targets.back().x = 1e101;
+  EXPECT_THROW(sum(GetParam(), {"fast", 1e-6}, c), SceneError);
+}
+
 TEST_P(FastSum, of_nothing_is_nothing) {
   PointSet c = point_set(GetParam(), "uniform", 0);
   EXPECT_TRUE(sum(GetParam(), {"fast", 1e-6}, c).empty());
