@@ -13,9 +13,14 @@ namespace asterflow {
 namespace {
 
 using Eigen::MatrixXd;
-constexpr int highest_order = 48;         // 3 GB for two surfaces
 constexpr int highest_order_alone = 192;  // of one axisymmetric body: 1 GB
 constexpr int most_refinements = 3;
+
+// Of several surfaces: their couplings, 8 bytes x (6 (p + 1)^2)^2 for each ordered pair, take 3 GB.
+int highest_order(std::size_t n_surface) {
+  double const pairs = static_cast<double>(std::max<std::size_t>(2, n_surface * (n_surface - 1)));
+  return static_cast<int>(48.0 * std::pow(2.0 / pairs, 0.25));
+}
 
 // Boundary velocity of a unit motion of one body: translation or rotation about its position along laboratory axis c.
 void unit_motion(PlacedSurface const& body, Surface const& surface, int c, Points velocity) {
@@ -146,7 +151,7 @@ Resistance solve_resistance(std::vector<PlacedSurface> const& bodies, std::optio
     return refine(bodies, options, first_order, highest_order_alone,
                   [&](int order) { return loads_alone(bodies, spots, order, options.accuracy); });
   std::optional<BoundarySystem> coarse;  // of the first order
-  return refine(bodies, options, first_order, highest_order, [&](int order) {
+  return refine(bodies, options, first_order, highest_order(surfaces.size()), [&](int order) {
     if (!coarse) coarse.emplace(surfaces, spots, coarse_order(order), options.accuracy);
     BoundarySystem const fine(surfaces, spots, order, options.accuracy);
     CoarseCorrection const correction(fine, *coarse);

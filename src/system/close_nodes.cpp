@@ -12,7 +12,7 @@ namespace asterflow {
 namespace {
 
 constexpr long block_size = 128;  // nodes
-constexpr double radius_per_weight = 0.3;  // from 0.25 to 0.4 bundles are solved; the error of dense asters is least
+constexpr double radius_per_weight = 0.3;  // from 0.25 to 0.4 bundles are solved
 constexpr double reach = 1.25;             // over a + b
 
 struct Factors {

@@ -187,7 +187,7 @@ TEST_P(FastSum, of_nothing_is_nothing) {
 
 TEST(Automatic_sum, is_direct_for_few_points_and_fast_for_many) {
   auto const evaluator = make_evaluator("stokeslet", {"auto", 1e-3});
-  PointSet const few = point_set("stokeslet", "uniform", 1000), many = point_set("stokeslet", "uniform", 9000);
+  PointSet const few = point_set("stokeslet", "uniform", 200), many = point_set("stokeslet", "uniform", 9000);
   evaluator->set_points(few.sources, few.sources);
   EXPECT_NE(evaluator->backend(), "fast");
   evaluator->set_points(many.sources, many.sources);
