@@ -2,6 +2,7 @@
 
 #include "backends/backend.hpp"
 #include "backends/default_space.hpp"
+#include "base/build_info.hpp"
 #include "base/cache_folder.hpp"
 #include "base/parallel.hpp"
 
@@ -47,7 +48,7 @@ std::string contents(std::string const& key, SumRates const& rates) {
 
 std::string rates_key(std::string_view kernel, int digits) {
   std::ostringstream key;
-  key << "asterflow " << ASTERFLOW_VERSION << " rates of sums " << method_version << "\nprocessor" << processor() << " of "
+  key << "asterflow " << build_info::version << " rates of sums " << method_version << "\nprocessor" << processor() << " of "
       << std::thread::hardware_concurrency() << ", threads " << thread_count() << ", "
       << (has_avx512() ? "avx512" : has_avx2() ? "avx2" : "portable") << ", " << Kokkos::DefaultExecutionSpace::name() << "\n"
       << kernel << ", digits " << digits << "\n";

@@ -1,5 +1,7 @@
 #include "io/picture.hpp"
 
+#include "base/build_info.hpp"
+
 #include <cerrno>
 #include <cstdlib>
 #include <fcntl.h>
@@ -40,7 +42,7 @@ int run_program(std::vector<std::string> words, bool is_silent) {
 fs::path find_script(std::string const& name) {
   std::error_code error;
   fs::path const program = fs::read_symlink("/proc/self/exe", error);
-  for (fs::path const& folder : {program.parent_path() / ".." / "share" / "asterflow", fs::path(ASTERFLOW_SCRIPTS)})
+  for (fs::path const& folder : {program.parent_path() / ".." / "share" / "asterflow", fs::path(build_info::scripts)})
     if (fs::exists(folder / name, error)) return folder / name;
   return {};
 }
