@@ -5,14 +5,12 @@
 #include "backends/fast_kernel.hpp"
 #include "backends/fast_plan.hpp"
 #include "backends/rates_file.hpp"
-#include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/timer.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 
 namespace asterflow {
 namespace {
@@ -70,17 +68,13 @@ class Trial {
     evaluator_->add_velocity(strengths_, velocity_);  // takes its memory
   }
 
-  // Seconds now. Where other work took the processors, the time of the threads on them counts.
+  // Seconds now.
   double repeat() {
     Timer const timer;
-    std::clock_t const start = std::clock();
     evaluator_->add_velocity(strengths_, velocity_);
     double const seconds = timer.seconds();
-    double const running = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / thread_count();
-    bool const is_disturbed = default_space_is_host && seconds > 1.3 * running;
-    double const now = is_disturbed ? running : seconds;
-    second_ = std::min(second_, std::max(best_, now));
-    best_ = std::min(best_, now);
+    second_ = std::min(second_, std::max(best_, seconds));
+    best_ = std::min(best_, seconds);
     return seconds;
   }
   bool repeats() const { return second_ < agreement * best_; }
@@ -127,6 +121,7 @@ SumRates measured_rates(std::string_view kernel, double accuracy) {
     spent += direct.repeat();
     for (Trial& trial : fast) spent += trial.repeat();
   }
+  if (!all_repeat()) return built_in_rates(kernel, accuracy);
   double plan = 1.0;
   for (Trial const& trial : fast)
     plan *= trial.nanoseconds() / predicted_fast(plan_cost(kernel, accuracy, trial.points()), static_cast<double>(n_fast));

@@ -2,7 +2,7 @@
 // What direct and fast sums cost here: time per pair, and the time of a fast sum over that predicted with its plan.
 // Measured at first use for every kernel, accuracy to whole digits and number of threads, on a few thousand points, and stored
 // in the folder of base/cache_folder.hpp, so that later choices are the same. The first of several processes that measure
-// at once decides for all. Where nothing can be stored a built-in table serves.
+// at once decides for all. Where nothing can be stored, or other work disturbs every measurement, a built-in table serves.
 
 #include <string_view>
 
