@@ -31,8 +31,9 @@ PointArray material_velocities(ConstPoints u, Scene const& scene, StoredFibers c
   for (std::size_t i = 0; i < fibers.count(); ++i) {
     double const c = slender_body_mobility(fibers.length[i], fibers.material[i].radius, viscosity);
     auto const n = static_cast<std::size_t>(fibers.node_count(i));
-    add_tether_tension(fibers.motor_load[i] * offset, fibers.length[i], tangents.subspan(fibers.first[i], n),
-                       Points(dipoles).subspan(fibers.first[i], n));
+    if (offset > 0.0)
+      add_tether_tension(fibers.motor_load[i] * offset, fibers.length[i], tangents.subspan(fibers.first[i], n),
+                         Points(dipoles).subspan(fibers.first[i], n));
     for (auto k = fibers.first[i]; k < fibers.first[i + 1]; ++k) {
       Vec3d const force = fibers.force_density[k] - dipoles[k] + fibers.motor_load[i] * tangents[k];
       velocity[k] += c * (force + dot(tangents[k], force) * tangents[k]);

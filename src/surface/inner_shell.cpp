@@ -1,5 +1,6 @@
 #include "surface/inner_shell.hpp"
 
+#include "surface/image_flows.hpp"
 #include "surface/plane_image.hpp"
 
 #include <cmath>
@@ -26,14 +27,7 @@ struct Probe {
   }
   PointArray flow(ConstPoints points) const {
     PointArray u(points.size());
-    auto const n = static_cast<long>(points.size());
-    for (long first = 0; first < n; first += n_lane<double>) {
-      long const count = std::min(n_lane<double>, n - first);
-      auto const x = gather<double>(points, first, count);
-      LanesOfVectors<double> sum;
-      for (auto const& image : images) image.add(x, sum);
-      add_lanes(1.0, sum, first, count, u);
-    }
+    add_image_flows<double>("InnerShell::probe", images, {}, points, u);
     return u;
   }
 };

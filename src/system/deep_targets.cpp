@@ -21,23 +21,25 @@ void DeepTargets::place(ConstPoints targets, DirichletFlow::Targets const& plann
   }
   points_.clear();
   shallow_.clear();
-  auto deep = has_deep_ ? shell_->inside().begin() : std::vector<std::size_t>::const_iterator{};
+  if (!has_deep_) return;
+  auto deep = shell_->inside().begin();
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    if (has_deep_ && deep != shell_->inside().end() && *deep == i) {
+    if (deep != shell_->inside().end() && *deep == i) {
       ++deep;
       continue;
     }
     shallow_.push_back(i);
     points_.push_back(targets[i]);
   }
-  if (has_deep_) points_.insert(points_.end(), shell_->nodes().begin(), shell_->nodes().end());
+  points_.insert(points_.end(), shell_->nodes().begin(), shell_->nodes().end());
 }
 
-void DeepTargets::add_velocity(std::function<void(ConstPoints, Points)> const& sum, Points velocity) const {
+void DeepTargets::add_velocity(std::function<void(ConstPoints, Points)> const& sum, ConstPoints targets, Points velocity) const {
+  if (!has_deep_) return sum(targets, velocity);
   PointArray flow(points_.size());
   sum(points_, flow);
   for (std::size_t k = 0; k < shallow_.size(); ++k) velocity[shallow_[k]] += flow[k];
-  if (has_deep_) shell_->add_velocity(ConstPoints(flow).subspan(shallow_.size()), velocity);
+  shell_->add_velocity(ConstPoints(flow).subspan(shallow_.size()), velocity);
 }
 
 std::size_t DeepTargets::memory() const {

@@ -18,8 +18,8 @@ class DeepTargets {
   // targets [n] um, which `sources` images will act on; the first of them planned for the periphery's own flow, too.
   void place(ConstPoints targets, DirichletFlow::Targets const& planned, std::size_t sources);
 
-  // velocity [n] += flow of the images; sum(points, u) adds it to u at points in the fluid.
-  void add_velocity(std::function<void(ConstPoints, Points)> const& sum, Points velocity) const;
+  // velocity [n] += flow of the images at the targets; sum(points, u) adds it to u at points in the fluid.
+  void add_velocity(std::function<void(ConstPoints, Points)> const& sum, ConstPoints targets, Points velocity) const;
 
   std::size_t memory() const;  // bytes
 
@@ -28,9 +28,9 @@ class DeepTargets {
   bool is_rough_;
   double accuracy_;
   std::optional<InnerShell> shell_;
-  PointArray points_;                 // where the images are summed: targets that are not deep, nodes of the copy
+  bool has_deep_ = false;             // else the images are summed at all targets
+  PointArray points_;                 // where they are summed: targets that are not deep, nodes of the copy
   std::vector<std::size_t> shallow_;  // which targets
-  bool has_deep_ = false;
 };
 
 }  // namespace asterflow

@@ -124,9 +124,11 @@ void Radiation::plan_images(FiberNodes const& fibers) {
       images_[b].place(poses_[b], fibers.positions, fibers.weights, first_fiber_node_);
   if (deep_targets_.empty()) return;
   images_.back().place({}, fibers.positions, fibers.weights, first_fiber_node_);
-  for (bool const is_rough : {false, true})
-    deep_targets_[is_rough].place(ConstPoints(nodes_).first(n_receiving_images(bodies_.size(), is_rough)), periphery_targets_,
-                                  is_rough ? images_.back().n_merged() : images_.back().size());
+  auto const place = [&](bool is_rough, std::size_t n_image) {
+    deep_targets_[is_rough].place(ConstPoints(nodes_).first(n_receiving_images(bodies_.size(), is_rough)), periphery_targets_, n_image);
+  };
+  place(false, images_.back().size());
+  if (has_rough_exchange()) place(true, images_.back().n_merged());
 }
 
 Vector6 Radiation::load_in_body_frame(std::size_t body, ConstPoints incident) const {
@@ -182,7 +184,7 @@ void Radiation::add_images(bool is_rough, Points received) const {
     if (i < bodies_.size())
       sum(nodes, received);
     else
-      deep_targets_[is_rough].add_velocity(sum, received.first(n));
+      deep_targets_[is_rough].add_velocity(sum, nodes.first(n), received.first(n));
     if (n < nodes.size()) images_[i].add_velocity_at_wall(strengths_, nodes.subspan(n), received.subspan(n));
     images_[i].add_own_resolution(strengths_, nodes_, received);
   }

@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "kernels/stokeslet.hpp"
 #include "surface/curvature_image.hpp"
+#include "surface/image_flows.hpp"
 #include "surface/plane_image.hpp"
 #include "system/stokeslet_lanes.hpp"
 
@@ -15,19 +16,6 @@ namespace {
 constexpr double negligible = 1e-3;  // nearness
 constexpr double closest = 1e-3;     // least distance over w: forces may lie on the wall
 constexpr double merging = 0.5;      // distance of images that merge, over that from the wall
-
-// velocity += the flow of all images, in vector lanes of targets. Images have their places from `origin`.
-template <class Real, class Image>
-void add_flows(char const* label, std::vector<Image> const& images, Vec3d origin, ConstPoints targets, Points velocity) {
-  auto const n = static_cast<long>(targets.size());
-  parallel_for(label, (n + n_lane<Real> - 1) / n_lane<Real>, [&](long block) {
-    long const first = block * n_lane<Real>, count = std::min(n_lane<Real>, n - first);
-    auto const x = gather<Real>(targets, first, count, origin);
-    LanesOfVectors<Real> u;
-    for (Image const& image : images) image.add(x, u);
-    add_lanes(Stokeslet::prefactor, u, first, count, velocity);
-  });
-}
 
 }  // namespace
 
@@ -134,12 +122,12 @@ void WallImages::add_velocity(ConstPoints strengths, ConstPoints targets, Points
   std::vector<PlaneImage<Real>> images;
   for (Image const& image : images_)
     images.emplace_back(image.nearness * strengths[image.source], image.foot - centre_, image.normal, image.distance);
-  add_flows<Real>("WallImages::plane", images, centre_, targets, velocity);
+  add_image_flows<Real>("WallImages::plane", images, centre_, targets, velocity);
   if (!wall_.has_curvature()) return;
   std::vector<CurvatureImage<float>> bent;  // a small part, to first order: float is enough
   for (Image const& image : images_)
     bent.emplace_back(image.nearness * strengths[image.source], image.foot - centre_, image.normal, image.distance, image.shape);
-  add_flows<float>("WallImages::curvature", bent, centre_, targets, velocity);
+  add_image_flows<float>("WallImages::curvature", bent, centre_, targets, velocity);
 }
 
 void WallImages::add_rough_velocity(ConstPoints strengths, ConstPoints targets, Points velocity) const {
@@ -156,7 +144,7 @@ void WallImages::add_rough_velocity(ConstPoints strengths, ConstPoints targets, 
     Image const& image = images_[merged_[k]];
     images.emplace_back(forces[k], image.foot - centre_, image.normal, image.distance);
   }
-  add_flows<float>("WallImages::merged", images, centre_, targets, velocity);
+  add_image_flows<float>("WallImages::merged", images, centre_, targets, velocity);
 }
 
 template void WallImages::add_velocity<double>(ConstPoints, ConstPoints, Points) const;
