@@ -74,7 +74,7 @@ FastInstructions host_instructions() {
 }  // namespace
 
 std::unique_ptr<FastParts> make_device_parts(std::string_view kernel, FastParameters const& parameters, FastInstructions) {
-  auto const local = KernelSplit(parameters.split_shape).local_part(kernel, parameters.local_tolerance);
+  auto const local = KernelSplit(parameters.split_shape).local_part(kernel, parameters.local_tolerance, 1);
   if (parameters.single && parameters.sums_in_double)  // one precision for all of a grid here
     return std::make_unique<DeviceParts<float, double>>(kernel, parameters, local, host_instructions());
   if (parameters.single) return std::make_unique<DeviceParts<float, float>>(kernel, parameters, local, host_instructions());

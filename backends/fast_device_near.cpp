@@ -1,6 +1,7 @@
 #include "backends/fast_device_near.hpp"
 
 #include "backends/fast_kernel.hpp"
+#include "base/error.hpp"
 #include "kernels/dual.hpp"
 #include "kernels/kernel.hpp"
 
@@ -54,7 +55,7 @@ template <class Kernel, class Real>
 KOKKOS_INLINE_FUNCTION void add_pair(DevicePolynomials<Real> const& polynomials, DeviceLevel<Real> const& level,
                                      Vec3<Real> const& x, Real const* source, int n_strength, Real (&u)[3]) {
   Real const r[3] = {x.x, x.y, x.z};
-  add_pair<Kernel, Real>(polynomials, level, x, r, inverse_distance(x), dot(x, x) * level.u_scale - Real(1), source, n_strength, u);
+  add_pair<Kernel, Real>(polynomials, level, x, r, inverse_distance(x), dot(x, x) * level.x_scale - Real(0.5), source, n_strength, u);
 }
 
 template <class Kernel, class Real>
@@ -62,7 +63,7 @@ KOKKOS_INLINE_FUNCTION void add_pair(DevicePolynomials<Real> const& polynomials,
                                      Vec3<Real> const& x, Real const* source, int n_strength, Dual<Real> (&u)[3]) {
   using D = Dual<Real>;
   Vec3<D> const y = differentiable(x);
-  D const r[3] = {y.x, y.y, y.z}, w = dot(y, y) * D(level.u_scale) - D(Real(1));
+  D const r[3] = {y.x, y.y, y.z}, w = dot(y, y) * D(level.x_scale) - D(Real(0.5));
   add_pair<Kernel, D>(polynomials, level, x, r, differentiable_inverse(x, inverse_distance(x)), w, source, n_strength, u);
 }
 
@@ -123,7 +124,8 @@ struct ListSum {
 template <class Real>
 DeviceNear<Real>::DeviceNear(FastKernel kernel, LocalPart const& local)
     : kernel_(kernel), record_(n_coordinate<Real> + n_component(kernel)) {
-  polynomials_.terms = static_cast<int>(local.a.size());
+  polynomials_.terms = local.terms;
+  ASTERFLOW_REQUIRE(local.pieces == 1 && local.terms <= DevicePolynomials<Real>::max_terms);
   for (std::size_t k = 0; k < local.a.size(); ++k) {
     polynomials_.a[k] = static_cast<Real>(local.a[k]);
     polynomials_.b[k] = static_cast<Real>(local.b[k]);
@@ -140,7 +142,7 @@ void DeviceNear<Real>::set_points(NearLists const& lists, bool only_close, Const
   std::vector<DeviceLevel<Real>> levels;
   for (int level = 0; level < lists.n_level(); ++level) {
     double const cutoff = std::ldexp(side_, -level);
-    levels.push_back({static_cast<Real>(cutoff * cutoff), static_cast<Real>(2.0 / (cutoff * cutoff)),
+    levels.push_back({static_cast<Real>(cutoff * cutoff), static_cast<Real>(1.0 / (cutoff * cutoff)),
                       static_cast<Real>(std::pow(cutoff, -power)), static_cast<Real>(std::pow(cutoff, -power - 2))});
   }
   send(levels_, levels, "levels");

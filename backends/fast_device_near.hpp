@@ -24,14 +24,15 @@ struct DeviceSegment {
 // The polynomials of the local part, for cutoff 1, passed by value: every thread reads the same number.
 template <class Real>
 struct DevicePolynomials {
+  static constexpr int max_terms = 24;
   int terms = 0;
-  Real a[NearLevel<Real>::max_terms] = {}, b[NearLevel<Real>::max_terms] = {};
+  Real a[max_terms] = {}, b[max_terms] = {};
 };
 
-// What a level's cutoff makes of them: u = u_scale r^2 - 1, A and B times a_scale and b_scale.
+// What a level's cutoff makes of them: x = x_scale r^2 - 1/2, A and B times a_scale and b_scale.
 template <class Real>
 struct DeviceLevel {
-  Real cutoff2, u_scale, a_scale, b_scale;
+  Real cutoff2, x_scale, a_scale, b_scale;
 };
 
 template <class Real>

@@ -16,7 +16,8 @@ class HostParts final : public FastParts {
  public:
   HostParts(std::string_view kernel, FastParameters const& parameters, FastInstructions instructions)
       : near_(fast_kernel(kernel), fast_loops_of<Real>(instructions),
-              KernelSplit(parameters.split_shape).local_part(kernel, parameters.local_tolerance),
+              KernelSplit(parameters.split_shape).local_part(kernel, parameters.local_tolerance,
+                                                           fast_loops_of<Real>(instructions).near_polynomials.pieces),
               parameters.refinement_steps, parameters.gradient),
         far_(fast_kernel(kernel), fast_loops_of<Real>(instructions), parameters) {}
 

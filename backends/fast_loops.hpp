@@ -51,12 +51,18 @@ struct PatchView {
   LineView<Real> lines[3];
 };
 
-// The polynomials of the local part for one level's cutoff.
+// The polynomials of the local part for one level's cutoff, one on each of some equal pieces of r^2: for piece i, x = to_pieces r^2 -
+// 1/2 within 1/2 of i, coefficients [term, piece] of (x - i)^term. A little below the cutoff nothing is left of the local part.
 template <class Real>
 struct NearLevel {
-  static constexpr int max_terms = 24;
-  Real cutoff2, u_scale;  // u = u_scale r^2 - 1
-  Real a[max_terms], b[max_terms];
+  static constexpr int max_coefficients = 128;
+  Real cutoff2, to_pieces;
+  alignas(64) Real a[max_coefficients], b[max_coefficients];
+};
+
+// Pieces, and terms of each that the loops are compiled for: fewest, fewest + step, ... most.
+struct NearPolynomials {
+  int pieces = 1, fewest = 0, step = 1, most = 0;
 };
 
 // Sources base + list[i] act at the cutoff of `level`, up to position `end` of the list. Their reactions are summed from
@@ -78,7 +84,7 @@ struct NearGroup {
 template <class Real>
 struct NearWork {
   FastKernel kernel;
-  int terms, refinement_steps;
+  int terms, refinement_steps;  // of the polynomials of a piece; of 1 / r, see inverse_distance()
   NearLevel<Real> const* levels;
   Real const* records;  // [source, record]: coordinates (float: high and low parts), strength, normal
   int record;
@@ -116,6 +122,8 @@ struct NearFound {
 template <class Real>
 struct FastLoops {
   int lanes = 0;  // numbers in a vector register
+
+  NearPolynomials near_polynomials;
 
   int tile_y = 0;  // nodes of one tile of the grid
 

@@ -16,6 +16,8 @@
 #include "backends/fast_sweep_y.inl"
 #include "backends/fast_sweep_z.inl"
 
+#include "backends/fast_pieces.inl"
+
 #include "backends/fast_near.inl"
 
 namespace asterflow {
@@ -24,7 +26,7 @@ namespace {
 template <class Real>
 FastLoops<Real> fast_loops() {
   constexpr int tile_y = lanes<Real> > 8 ? 2 * lanes<Real> : 16;
-  return {lanes<Real>, tile_y, forward<Real>, forward_scratch<Real>, z_sweep<Real>, y_sweep<Real>,
+  return {lanes<Real>, near_polynomials<Real>, tile_y, forward<Real>, forward_scratch<Real>, z_sweep<Real>, y_sweep<Real>,
           x_inverse<Real>, sweep_scratch<Real>, interpolate<Real>, add_near<Real>, list_near};
 }
 

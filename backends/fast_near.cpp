@@ -21,11 +21,12 @@ NearField<Real>::NearField(FastKernel kernel, FastLoops<Real> const& loops, Loca
       local_(local),
       refinement_steps_(refinement_steps),
       gradient_(gradient) {
-  int const n = static_cast<int>(local_.a.size());
-  int const terms = sizeof(Real) == 8 ? std::max(14, n + n % 2) : n <= 7 ? 7 : n + n % 2;  // those the loops are compiled for
-  ASTERFLOW_REQUIRE(terms <= (sizeof(Real) == 8 ? 24 : 14));
-  local_.a.resize(terms, 0.0);
-  local_.b.resize(terms, 0.0);
+  NearPolynomials const& compiled = loops.near_polynomials;
+  int const missing = std::max(0, local_.terms - compiled.fewest);
+  local_.terms = compiled.fewest + (missing + compiled.step - 1) / compiled.step * compiled.step;
+  ASTERFLOW_REQUIRE(local_.pieces == compiled.pieces && local_.terms <= compiled.most);
+  local_.a.resize(local_.terms * local_.pieces, 0.0);
+  local_.b.resize(local_.terms * local_.pieces, 0.0);
   record_ = (split_coordinates ? 6 : 3) + n_component(kernel);
 }
 
@@ -36,8 +37,8 @@ void NearField<Real>::make_levels() {
   for (int level = 0; level < lists_.n_level(); ++level) {
     double const cutoff = std::ldexp(lists_.side(), -level);
     NearLevel<Real> l{};
-    l.cutoff2 = static_cast<Real>(cutoff * cutoff);
-    l.u_scale = static_cast<Real>(2.0 / (cutoff * cutoff));
+    l.cutoff2 = static_cast<Real>((1.0 - 1e-6) * cutoff * cutoff);  // rounding leads to no piece beyond the last
+    l.to_pieces = static_cast<Real>(local_.pieces / (cutoff * cutoff));
     for (std::size_t k = 0; k < local_.a.size(); ++k) {
       l.a[k] = static_cast<Real>(local_.a[k] * std::pow(cutoff, -power));
       l.b[k] = static_cast<Real>(local_.b[k] * std::pow(cutoff, -power - 2));
@@ -81,22 +82,25 @@ void NearField<Real>::set_strengths(Vec3d const* strengths, Vec3d const* normals
   });
 }
 
-// One pair in double; r, 1 / r and w = 2 (r / cutoff)^2 - 1 may carry derivatives.
+// One pair in double; r and 1 / r may carry derivatives.
 template <class Real>
 template <class Kernel, class Number>
 void NearField<Real>::add_pair(int level, std::uint32_t source, Number const (&r)[3], double r2, Number const& inverse,
-                               Number const& w, Number (&u)[3]) const {
+                               Number (&u)[3]) const {
   NearLevel<Real> const& part = levels_[level];
+  double const to_pieces = static_cast<double>(part.to_pieces);
+  int const piece = std::min(static_cast<int>(std::min(to_pieces * r2, 1e6)), local_.pieces - 1);
+  Number const x = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) * Number(to_pieces) - Number(0.5 + piece);
   Number a = 0.0, b = 0.0, strength[6];
-  for (int k = static_cast<int>(local_.a.size()) - 1; k >= 0; --k) {
-    a = a * w + Number(part.a[k]);
-    b = b * w + Number(part.b[k]);
+  for (int k = local_.terms - 1; k >= 0; --k) {
+    a = a * x + Number(part.a[k * local_.pieces + piece]);
+    b = b * x + Number(part.b[k * local_.pieces + piece]);
   }
   for (int d = 0; d < 3; ++d) {
     strength[d] = strengths_[source][d];
     strength[3 + d] = normals_ ? normals_[source][d] : 0.0;
   }
-  auto const inside = [&](Number const& x) { return r2 < part.cutoff2 ? x : Number(0.0); };
+  auto const inside = [&](Number const& n) { return r2 < part.cutoff2 ? n : Number(0.0); };
   Kernel::add(r, inverse, a, b, inside, strength, u);
 }
 
@@ -109,10 +113,9 @@ void NearField<Real>::add_close(NearLists::Leaf const& leaf, Vec3d* velocity, Ve
     Vec3d const x = lists_.targets()[target] - lists_.sources()[source];
     double const r2 = dot(x, x), s = r2 > 0.0 ? 1.0 / std::sqrt(r2) : 0.0;
     Vec3<D> const r = differentiable(x);
-    D const w = dot(r, r) * D(static_cast<double>(levels_[level].u_scale)) - D(1.0);
     D const place[3] = {r.x, r.y, r.z};
     D u[3];
-    add_pair<Kernel>(level, source, place, r2, differentiable_inverse(x, s), w, u);
+    add_pair<Kernel>(level, source, place, r2, differentiable_inverse(x, s), u);
     for (int d = 0; d < 3; ++d) {
       velocity[target][d] += velocity_scale_ * u[d].value;
       if (!gradient) continue;
@@ -126,7 +129,7 @@ void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient) {
   NearLists::Leaf const& leaf = lists_.leaves()[item];
   Real* const reactions = reactions_.data() + 4 * leaf.first_place;
   std::fill_n(reactions, 4 * leaf.n_place, Real(0));
-  NearWork<Real> const work{kernel_, static_cast<int>(local_.a.size()), refinement_steps_, levels_.data(),
+  NearWork<Real> const work{kernel_, local_.terms, refinement_steps_, levels_.data(),
                             records_.data(), record_, &lists_.targets().data()->x, leaf.groups.data(),
                             static_cast<long>(leaf.groups.size()), leaf.segments.data(), leaf.list.data(),
                             velocity_scale_, velocity_scale_ * lists_.side(), reactions};

@@ -12,7 +12,7 @@ namespace asterflow {
 template <class Real>
 class NearField {
  public:
-  // local: polynomials for cutoff 1; refinement_steps of the hardware's reciprocal square root.
+  // local: polynomials for cutoff 1, in as many pieces as the loops have; refinement_steps: see FastParameters.
   // gradient: whether gradients will be asked for.
   NearField(FastKernel kernel, FastLoops<Real> const& loops, LocalPart const& local, int refinement_steps, bool gradient);
 
@@ -41,7 +41,7 @@ class NearField {
   void add_close(NearLists::Leaf const& leaf, Vec3d* velocity, Vec3d* gradient) const;
   template <class Kernel, class Number>
   void add_pair(int level, std::uint32_t source, Number const (&r)[3], double r2, Number const& inverse,
-                Number const& w, Number (&u)[3]) const;
+                Number (&u)[3]) const;
 
   FastKernel kernel_;
   FastLoops<Real> loops_;

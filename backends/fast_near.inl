@@ -30,10 +30,16 @@ struct NearLoop {
     }
   };
 
+  // From an estimate y by the series of 1 / sqrt(1 - e), e = 1 - r2 y^2. Of AVX-512's estimate one term leaves 6e-9, two 6e-13.
   static P inverse_distance(P r2, int refinement_steps) {
-    P inverse = reciprocal_square_root<Real, sizeof(Real) == 4 ? 0 : 1>(r2);
-    if (refinement_steps > 0) inverse = inverse * (Real(1.5) - Real(0.5) * r2 * inverse * inverse);
-    return r2 > P{} ? inverse : P{};
+    constexpr bool is_rough = sizeof(Real) == 8 || pack_bytes == 32;
+    P const y = reciprocal_square_root<Real>(r2);
+    int const terms = estimates_root<Real> ? refinement_steps + is_rough : 0;
+    if (terms == 0) return y;
+    P const e = Real(1) - r2 * (y * y), ye = y * e;
+    if (terms == 1) return y + Real(0.5) * ye;
+    if (terms == 2) return y + ye * (Real(0.5) + Real(0.375) * e);
+    return y + ye * (Real(0.5) + e * (Real(0.375) + Real(0.3125) * e));
   }
 
   template <int n>
@@ -58,18 +64,21 @@ struct NearLoop {
     P r[n][3], r2[n], inverse[n], a[n], b[n];
 
     Pairs(NearWork<Real> const& work, NearLevel<Real> const& level, Targets const& targets, Real const* const (&records)[n]) {
-      P w[n];
       for (int i = 0; i < n; ++i) {
         targets.minus(records[i], r[i]);
         r2[i] = r[i][0] * r[i][0] + r[i][1] * r[i][1] + r[i][2] * r[i][2];
         inverse[i] = inverse_distance(r2[i], work.refinement_steps);
-        w[i] = r2[i] * level.u_scale - Real(1);
-        a[i] = broadcast(level.a[terms - 1]), b[i] = broadcast(level.b[terms - 1]);
+      }
+      Place<Real> at[n];
+      for (int i = 0; i < n; ++i) {
+        at[i] = Place<Real>(r2[i] * level.to_pieces - Real(0.5));
+        a[i] = at[i].coefficient(level.a + (terms - 1) * near_pieces<Real>);
+        b[i] = at[i].coefficient(level.b + (terms - 1) * near_pieces<Real>);
       }
       for (int k = terms - 2; k >= 0; --k)
         for (int i = 0; i < n; ++i) {
-          a[i] = a[i] * w[i] + level.a[k];
-          b[i] = b[i] * w[i] + level.b[k];
+          a[i] = a[i] * at[i].rest + at[i].coefficient(level.a + k * near_pieces<Real>);
+          b[i] = b[i] * at[i].rest + at[i].coefficient(level.b + k * near_pieces<Real>);
         }
     }
   };
@@ -94,7 +103,8 @@ struct NearLoop {
     for (int i = 0; i < n; ++i) records[i] = work.records + (static_cast<long>(segment.base) + work.list[k + i]) * work.record;
     Pairs<terms, n> const pairs(work, level, targets, records);
     for (int i = 0; i < n; ++i) {
-      auto const inside = [&](P const& x) { return pairs.r2[i] < broadcast(level.cutoff2) ? x : P{}; };
+      auto const is_inside = less(pairs.r2[i], broadcast(level.cutoff2));
+      auto const inside = [&](P const& x) { return only(is_inside, x); };
       Kernel::add(pairs.r[i], pairs.inverse[i], pairs.a[i], pairs.b[i], inside, records[i] + offset, u);
       if constexpr (has_reactions) {
         P v[3] = {P{}, P{}, P{}};
@@ -144,12 +154,12 @@ struct NearLoop {
     }
   }
 
-  // A polynomial and its derivative, as a number that depends on the target through w.
-  static Dual<P> polynomial(Real const* c, int terms, P w, P const (&slope)[3]) {
-    P value = broadcast(c[terms - 1]), derivative{};
+  // A polynomial and its derivative, as a number that depends on the target through x.
+  static Dual<P> polynomial(Real const* c, int terms, Place<Real> const& x, P const (&slope)[3]) {
+    P value = x.coefficient(c + (terms - 1) * near_pieces<Real>), derivative{};
     for (int k = terms - 2; k >= 0; --k) {
-      derivative = derivative * w + value;
-      value = value * w + c[k];
+      derivative = derivative * x.rest + value;
+      value = value * x.rest + x.coefficient(c + k * near_pieces<Real>);
     }
     return {value, derivative * slope[0], derivative * slope[1], derivative * slope[2]};
   }
@@ -161,18 +171,18 @@ struct NearLoop {
     P r[3];
     targets.minus(record, r);
     P const r2 = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-    P const s = inverse_distance(r2, 1), one = broadcast(Real(1));
-    P const slope[3] = {r[0] * (2 * level.u_scale), r[1] * (2 * level.u_scale), r[2] * (2 * level.u_scale)};
-    P const w = r2 * level.u_scale - Real(1);
+    P const s = inverse_distance(r2, sizeof(Real) == 4 ? 1 : 2), one = broadcast(Real(1));
+    P const slope[3] = {r[0] * (2 * level.to_pieces), r[1] * (2 * level.to_pieces), r[2] * (2 * level.to_pieces)};
+    Place<Real> const place(r2 * level.to_pieces - Real(0.5));
     D const x[3] = {{r[0], one, P{}, P{}}, {r[1], P{}, one, P{}}, {r[2], P{}, P{}, one}};
     D const inverse = differentiable_inverse(Vec3<P>{r[0], r[1], r[2]}, s);
+    auto const is_inside = less(r2, broadcast(level.cutoff2));
     auto const inside = [&](D const& n) {
-      auto const keep = [&](P const& p) { return r2 < broadcast(level.cutoff2) ? p : P{}; };
-      return D{keep(n.value), keep(n.slope[0]), keep(n.slope[1]), keep(n.slope[2])};
+      return D{only(is_inside, n.value), only(is_inside, n.slope[0]), only(is_inside, n.slope[1]), only(is_inside, n.slope[2])};
     };
     D strength[6];
     for (int d = 0; d < work.record - offset; ++d) strength[d] = broadcast(record[offset + d]);
-    Kernel::add(x, inverse, polynomial(level.a, work.terms, w, slope), polynomial(level.b, work.terms, w, slope), inside,
+    Kernel::add(x, inverse, polynomial(level.a, work.terms, place, slope), polynomial(level.b, work.terms, place, slope), inside,
                 strength, u);
   }
 
@@ -204,26 +214,14 @@ struct NearLoop {
     }
   }
 
-  template <class Kernel>
+  // The loop for work.terms, the first of those compiled at or after `terms`.
+  template <class Kernel, int terms = near_polynomials<Real>.fewest>
   static void add_of(NearWork<Real> const& work, double* velocity, double* gradient) {
+    constexpr int next = terms + near_polynomials<Real>.step;
     if (gradient) return add_gradient<Kernel>(work, velocity, gradient);
-    if constexpr (sizeof(Real) == 4) {
-      switch (work.terms) {
-        case 7: return add<Kernel, 7>(work, velocity);
-        case 8: return add<Kernel, 8>(work, velocity);
-        case 10: return add<Kernel, 10>(work, velocity);
-        case 12: return add<Kernel, 12>(work, velocity);
-        default: return add<Kernel, 14>(work, velocity);
-      }
-    }
-    switch (work.terms) {
-      case 14: return add<Kernel, 14>(work, velocity);
-      case 16: return add<Kernel, 16>(work, velocity);
-      case 18: return add<Kernel, 18>(work, velocity);
-      case 20: return add<Kernel, 20>(work, velocity);
-      case 22: return add<Kernel, 22>(work, velocity);
-      default: return add<Kernel, 24>(work, velocity);
-    }
+    if constexpr (next <= near_polynomials<Real>.most)
+      if (work.terms > terms) return add_of<Kernel, next>(work, velocity, gradient);
+    add<Kernel, terms>(work, velocity);
   }
 };
 

@@ -110,33 +110,46 @@ inline Pack<Real> broadcast(Real s) {
 inline int smaller(int a, int b) { return a < b ? a : b; }
 inline long smaller(long a, long b) { return a < b ? a : b; }
 
-// 1 / sqrt(x): the hardware estimate improved by at least `steps` of Newton's method, each of which doubles the
-// 14 digits (AVX-512) or 12 (AVX2, only float; there one step is always taken). In double without AVX-512 exact:
-// an estimate from float would not cover small distances.
-template <class Real, int steps>
+// Lanes where a < b, and a vector that is zero elsewhere.
+#if defined(__AVX512F__)
+inline __mmask16 less(Pack<float> a, Pack<float> b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ); }
+inline __mmask8 less(Pack<double> a, Pack<double> b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ); }
+inline Pack<float> only(__mmask16 lanes, Pack<float> a) { return (Pack<float>)_mm512_maskz_mov_ps(lanes, (__m512)a); }
+inline Pack<double> only(__mmask8 lanes, Pack<double> a) { return (Pack<double>)_mm512_maskz_mov_pd(lanes, (__m512d)a); }
+#else
+template <class Vector>
+inline auto less(Vector a, Vector b) {
+  return a < b;
+}
+template <class Lanes, class Vector>
+inline Vector only(Lanes lanes, Vector a) {
+  return lanes ? a : Vector{};
+}
+#endif
+
+// The hardware's estimate of 1 / sqrt(x), to 14 digits of two (AVX-512) or 12 (AVX2, only float); exact elsewhere: in double an
+// estimate from float would not cover small distances. 0 for 0.
+template <class Real>
+constexpr bool estimates_root = pack_bytes == 64 || (pack_bytes == 32 && sizeof(Real) == 4);
+template <class Real>
 inline Pack<Real> reciprocal_square_root(Pack<Real> x) {
 #if defined(__AVX512F__)
-  Pack<Real> y;
+  auto const positive = less(Pack<Real>{}, x);
   if constexpr (sizeof(Real) == 8)
-    y = (Pack<Real>)_mm512_maskz_rsqrt14_pd(0xff, (__m512d)x);
+    return (Pack<Real>)_mm512_maskz_rsqrt14_pd(positive, (__m512d)x);
   else
-    y = (Pack<Real>)_mm512_maskz_rsqrt14_ps(0xffff, (__m512)x);
-  Pack<Real> const half = Real(0.5) * x;
-  for (int i = 0; i < steps; ++i) y = y * (Real(1.5) - half * y * y);
-  return y;
-#elif defined(__AVX2__)
-  if constexpr (sizeof(Real) == 8) {
-    return Real(1) / (Pack<Real>)_mm256_sqrt_pd((__m256d)x);
-  } else {
-    Pack<Real> y = (Pack<Real>)_mm256_rsqrt_ps((__m256)x);
-    Pack<Real> const half = Real(0.5) * x;
-    for (int i = 0; i < (steps > 1 ? steps : 1); ++i) y = y * (Real(1.5) - half * y * y);
-    return y;
-  }
+    return (Pack<Real>)_mm512_maskz_rsqrt14_ps(positive, (__m512)x);
 #else
   Pack<Real> y{};
+#if defined(__AVX2__)
+  if constexpr (sizeof(Real) == 8)
+    y = Real(1) / (Pack<Real>)_mm256_sqrt_pd((__m256d)x);
+  else
+    y = (Pack<Real>)_mm256_rsqrt_ps((__m256)x);
+#else
   for (int i = 0; i < lanes<Real>; ++i) y[i] = Real(1) / std::sqrt(x[i]);
-  return y;
+#endif
+  return only(less(Pack<Real>{}, x), y);
 #endif
 }
 

@@ -22,7 +22,7 @@ FastParameters fast_parameters(std::string_view kernel, double accuracy, bool gr
   p.local_tolerance = 0.5 * std::pow(10.0, -digits);
   p.single = digits <= 6.05;
   p.sums_in_double = digits > 4.53;
-  p.refinement_steps = p.single ? (digits > 3.53) : (digits > 7.0);
+  p.refinement_steps = p.single ? digits > 3.53 : (digits > 7.0) + (digits > 10.5);
   p.gradient = gradient;
   bool const is_tensor = kernel.starts_with("stresslet");  // six components instead of three
   p.nodes_per_point = p.single ? (is_tensor ? 26.0 : 40.0) : 20.0 * std::max(1.0, std::pow(digits / 6.0, 3));

@@ -16,7 +16,7 @@ struct FastParameters {
   double local_tolerance;   // of the polynomials of the local part
   bool single;              // pairs in float, and grids but for the sums of strengths on them
   bool sums_in_double;      // of strengths on the grids, see fast_loops.hpp
-  int refinement_steps;     // of the reciprocal square root, beyond the first for double
+  int refinement_steps;     // of the reciprocal square root, beyond what its estimate always needs
 
   bool gradient = false;      // whether gradients will be asked for
 

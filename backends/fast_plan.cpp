@@ -23,11 +23,11 @@ struct Costs {
 
 // lists_once: pairs serve both directions (fast_near_lists.hpp), so that one direction costs less.
 Costs costs(FastParameters const& p, int components, bool lists_once) {
-  double const terms = 0.8 * p.split_shape - 1.0, width2 = static_cast<double>(p.width) * p.width;
+  double const digits = (p.split_shape - 3.4) / 2.45, width2 = static_cast<double>(p.width) * p.width;
   double const in_float = 4.0 * width2 + 100.0, in_double = 7.2 * width2 + 96.0;
   double const part = p.single ? in_float : in_double;
-  double const pair = (p.single ? 0.019 : 0.038) * ((p.refinement_steps > 0 ? 25.0 : 18.0) + 2.0 * terms);
-  double const direction = !lists_once ? 1.0 : p.single ? 0.8 : 0.65, normals = components > 3 ? 1.25 : 1.0;
+  double const pair = p.single ? 0.48 + 0.067 * digits : 1.25 + 0.095 * digits;
+  double const direction = !lists_once ? 1.0 : p.single ? 0.72 : 0.65, normals = components > 3 ? 1.3 : 1.0;
   return {direction * normals * pair, (p.single ? 1.5 : 3.7) * (components + 3), (components / 6.0 + 0.5) * part};
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace asterflow {
 namespace {
@@ -40,29 +41,39 @@ Quadrature gauss_legendre() {
 
 using Function = std::function<double(double)>;
 
-// Chebyshev coefficients in u of f(r), u = 2 r^2 - 1.
-std::vector<double> chebyshev_series(Function const& f) {
-  std::vector<double> value(n_fit), series(n_fit);
-  for (int i = 0; i < n_fit; ++i) value[i] = f(std::sqrt(0.5 + 0.5 * std::cos(M_PI * (i + 0.5) / n_fit)));
-  for (int k = 0; k < n_fit; ++k) {
+// Chebyshev coefficients in u of f(r) for r^2 between low and high, u = -1 ... 1.
+std::vector<double> chebyshev_series(Function const& f, double low, double high, int n) {
+  std::vector<double> value(n), series(n);
+  for (int i = 0; i < n; ++i) value[i] = f(low + (high - low) * (0.5 + 0.5 * std::cos(M_PI * (i + 0.5) / n)));
+  for (int k = 0; k < n; ++k) {
     double sum = 0.0;
-    for (int i = 0; i < n_fit; ++i) sum += value[i] * std::cos(M_PI * k * (i + 0.5) / n_fit);
-    series[k] = (k == 0 ? 1.0 : 2.0) * sum / n_fit;
+    for (int i = 0; i < n; ++i) sum += value[i] * std::cos(M_PI * k * (i + 0.5) / n);
+    series[k] = (k == 0 ? 1.0 : 2.0) * sum / n;
   }
   return series;
 }
 
+double largest(std::vector<double> const& series) {
+  double a = 0.0;
+  for (double s : series) a = std::max(a, std::abs(s));
+  return a;
+}
+
 int terms_needed(std::vector<double> const& series, double tolerance) {
-  double largest = 0.0;
-  for (double a : series) largest = std::max(largest, std::abs(a));
-  tolerance = std::max(tolerance, 1e-13 * largest);  // rounding of the coefficients
   double tail = 0.0;
-  int n = n_fit;
+  int n = static_cast<int>(series.size());
   while (n > 1 && (tail += std::abs(series[n - 1])) < tolerance) --n;
   return n;
 }
 
-// Monomial coefficients of the Chebyshev series cut after n terms, by T_k = 2 u T_{k-1} - T_{k-2}.
+// The series at u, by Clenshaw's recurrence.
+double value_at(std::vector<double> const& series, double u) {
+  double now = 0.0, after = 0.0;
+  for (std::size_t k = series.size() - 1; k > 0; --k) after = std::exchange(now, 2.0 * u * now - after + series[k]);
+  return u * now - after + series[0];
+}
+
+// Coefficients of x^0, x^1, ... for x = u / 2 of the Chebyshev series cut after n terms, by T_k = 2 u T_{k-1} - T_{k-2}.
 std::vector<double> monomials(std::vector<double> const& series, int n) {
   std::vector<double> before(n, 0.0), now(n, 0.0), next(n, 0.0), sum(n, 0.0);
   now[0] = 1.0;
@@ -72,8 +83,37 @@ std::vector<double> monomials(std::vector<double> const& series, int n) {
     before = now;
     now = next;
   }
+  for (int i = 0; i < n; ++i) sum[i] = std::ldexp(sum[i], i);
   return sum;
 }
+
+// A function of r in [0, 1] on equal parts of r^2.
+class Piecewise {
+ public:
+  Piecewise(Function const& f, int pieces, double tolerance) {
+    auto const whole = chebyshev_series([&](double s) { return f(std::sqrt(s)); }, 0.0, 1.0, n_fit);
+    tolerance = std::max(tolerance, 1e-13 * largest(whole));  // rounding of the coefficients
+    for (int i = 0; i < pieces; ++i) {
+      double const low = static_cast<double>(i) / pieces, high = (i + 1.0) / pieces;
+      series_.push_back(pieces == 1 ? whole : chebyshev_series([&](double s) { return value_at(whole, 2.0 * s - 1.0); }, low, high, n_fit / 2));
+      terms_ = std::max(terms_, terms_needed(series_.back(), tolerance));
+    }
+  }
+  int terms() const { return terms_; }
+  // [term, piece]
+  std::vector<double> coefficients(int terms) const {
+    std::vector<double> all(terms * series_.size());
+    for (std::size_t i = 0; i < series_.size(); ++i) {
+      auto const piece = monomials(series_[i], terms);
+      for (int k = 0; k < terms; ++k) all[k * series_.size() + i] = piece[k];
+    }
+    return all;
+  }
+
+ private:
+  std::vector<std::vector<double>> series_;
+  int terms_ = 1;
+};
 
 }  // namespace
 
@@ -85,7 +125,7 @@ double KernelSplit::moment(int power, double r, F const& f) {
   return sum;
 }
 
-LocalPart KernelSplit::local_part(std::string_view kernel, double tolerance) const {
+LocalPart KernelSplit::local_part(std::string_view kernel, double tolerance, int pieces) const {
   auto const g = [&](double x) { return window_.value(x); };
   auto const h = [&](double x) { return window_.slope(x); };
   auto const h2 = [&](double x) { return window_.slope_of_slope(x); };
@@ -102,9 +142,9 @@ LocalPart KernelSplit::local_part(std::string_view kernel, double tolerance) con
     a = [&](double r) { return 2.0 * h(r); };
     b = [&](double r) { return (2.0 / 3.0) * moment(4, r, h2); };
   }
-  auto const series_a = chebyshev_series(a), series_b = chebyshev_series(b);
-  int const n = std::max(terms_needed(series_a, tolerance), terms_needed(series_b, tolerance));
-  return {monomials(series_a, n), monomials(series_b, n)};
+  Piecewise const part_a(a, pieces, tolerance), part_b(b, pieces, tolerance);
+  int const n = std::max(part_a.terms(), part_b.terms());
+  return {pieces, n, part_a.coefficients(n), part_b.coefficients(n)};
 }
 
 }  // namespace asterflow

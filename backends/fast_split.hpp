@@ -15,13 +15,14 @@
 
 namespace asterflow {
 
-// The local part for cutoff 1, with polynomials A, B in u = 2 r^2 - 1:
+// The local part for cutoff 1, with A, B functions of r^2, polynomials on each of some equal pieces of 0 ... 1:
 //   Stokeslet  (1/r - A) f + (1/r^3 - B) r (r.f)
 //   rotlet     (1/r^3 - B) t x r
 //   stresslet  -A (q (n.r) + n (q.r) + (q.n) r) - 6 (1/r^5 - B) r (q.r) (n.r)
 //   pressures  2 (1/r^3 - B) (r.f)  and  4 (1/r^3 - A) (q.n) - 12 (1/r^5 - B) (r.q) (r.n)
-// Coefficients of u^0, u^1, ...; both of the same length.
+// In x - i for piece i, x = pieces r^2 - 1/2 within 1/2 of i: coefficients [term, piece].
 struct LocalPart {
+  int pieces, terms;
   std::vector<double> a, b;
 };
 
@@ -30,7 +31,7 @@ class KernelSplit {
   explicit KernelSplit(double shape) : window_(shape) {}
 
   double filter(double k) const { return window_.spectrum(k) - 0.5 * k * window_.spectrum_slope(k); }
-  LocalPart local_part(std::string_view kernel, double tolerance) const;
+  LocalPart local_part(std::string_view kernel, double tolerance, int pieces) const;
 
  private:
   // Integral over s in [0, 1] of s^power f(r s).
