@@ -6,6 +6,7 @@
 #include "kernels/list.hpp"
 
 #include <optional>
+#include <string>
 
 namespace asterflow {
 namespace {
@@ -39,13 +40,28 @@ PairSums<Real> loops_for(InstructionSet instructions, int i_kernel, double accur
   }
 }
 
+KernelTraits traits_of(std::string_view name) {
+  KernelTraits traits;
+  int i = 0;
+  std::apply(
+      [&](auto... k) {
+        ((k.name == name ? void(traits = {i++, k.prefactor, k.decay, k.has_normal}) : void(i++)), ...);
+      },
+      AllSums{});
+  return traits;
+}
+
 // Float arithmetic where the accuracy asked for and the points allow it, else double.
 class DirectHost final : public Evaluator {
  public:
-  DirectHost(InstructionSet instructions, KernelTraits const& kernel, double accuracy)
-      : instructions_(instructions), kernel_(kernel), accuracy_(accuracy), in_double_(kernel, loops_for<double>(instructions, kernel.index, accuracy)) {
-    auto const loops = loops_for<float>(instructions, kernel.index, accuracy);
-    if (loops.add_one_way) in_float_.emplace(kernel, loops);
+  DirectHost(InstructionSet instructions, std::string_view name, double accuracy)
+      : instructions_(instructions),
+        name_(name),
+        kernel_(traits_of(name)),
+        accuracy_(accuracy),
+        in_double_(kernel_, loops_for<double>(instructions, kernel_.index, accuracy)) {
+    auto const loops = loops_for<float>(instructions, kernel_.index, accuracy);
+    if (loops.add_one_way) in_float_.emplace(kernel_, loops);
   }
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
@@ -53,6 +69,8 @@ class DirectHost final : public Evaluator {
     Box const box = bounding_box(sources, targets);
     n_source_ = sources.size();
     n_target_ = targets.size();
+    plain_ = dwarfs_sources(box, sources, targets) ? make_reference(name_, {}) : nullptr;
+    if (plain_) return plain_->set_points(sources, targets, normals);
     uses_float_ = in_float_ && !may_cancel() && !has_close_pair(sources, targets, closest_in_float * box.extent());
     if (uses_float_)
       in_float_->set_points(sources, targets, normals, frame_of<float>(box));
@@ -62,6 +80,7 @@ class DirectHost final : public Evaluator {
 
   void add_velocity(ConstPoints strengths, Points velocity) override {
     ASTERFLOW_REQUIRE(strengths.size() == n_source_ && velocity.size() == n_target_);
+    if (plain_) return plain_->add_velocity(strengths, velocity);
     if (uses_float_)
       in_float_->add_velocity(strengths, velocity);
     else
@@ -70,6 +89,7 @@ class DirectHost final : public Evaluator {
 
   void add_gradient(ConstPoints strengths, Points gradient) override {
     ASTERFLOW_REQUIRE(strengths.size() == n_source_ && gradient.size() == 3 * n_target_);
+    if (plain_) return plain_->add_gradient(strengths, gradient);
     if (uses_float_)
       in_float_->add_gradient(strengths, gradient);
     else
@@ -90,24 +110,15 @@ class DirectHost final : public Evaluator {
   }
 
   InstructionSet instructions_;
+  std::string name_;
   KernelTraits kernel_;
   double accuracy_;
   PackedSum<double> in_double_;
   std::optional<PackedSum<float>> in_float_;
+  std::unique_ptr<Evaluator> plain_;  // where no scale suits all distances
   bool uses_float_ = false;
   std::size_t n_source_ = 0, n_target_ = 0;
 };
-
-KernelTraits traits_of(std::string_view name) {
-  KernelTraits traits;
-  int i = 0;
-  std::apply(
-      [&](auto... k) {
-        ((k.name == name ? void(traits = {i++, k.prefactor, k.decay, k.has_normal}) : void(i++)), ...);
-      },
-      AllSums{});
-  return traits;
-}
 
 // A gradient has one more factor 1 / |r|, at most.
 double pair_accuracy(EvaluatorOptions const& options) { return options.gradient ? 0.5 * options.accuracy : options.accuracy; }
@@ -115,11 +126,11 @@ double pair_accuracy(EvaluatorOptions const& options) { return options.gradient 
 }  // namespace
 
 std::unique_ptr<Evaluator> make_direct_avx2(std::string_view kernel, EvaluatorOptions const& options) {
-  return std::make_unique<DirectHost>(InstructionSet::avx2, traits_of(kernel), pair_accuracy(options));
+  return std::make_unique<DirectHost>(InstructionSet::avx2, kernel, pair_accuracy(options));
 }
 
 std::unique_ptr<Evaluator> make_direct_avx512(std::string_view kernel, EvaluatorOptions const& options) {
-  return std::make_unique<DirectHost>(InstructionSet::avx512, traits_of(kernel), pair_accuracy(options));
+  return std::make_unique<DirectHost>(InstructionSet::avx512, kernel, pair_accuracy(options));
 }
 
 PairArithmetic pair_arithmetic(std::string_view instructions, std::string_view kernel, double accuracy) {

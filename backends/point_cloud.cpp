@@ -60,6 +60,21 @@ Box bounding_box(ConstPoints sources, ConstPoints targets) {
   return box;
 }
 
+bool dwarfs_sources(Box const& all, ConstPoints sources, ConstPoints targets) {
+  constexpr double most = 1e20;  // pairs closer than 5e-38 of the extent are lost, here below rounding of the sources
+  if (sources.empty()) return false;
+  double size = bounding_box(sources, {}).extent();
+  if (size == 0.0) {
+    size = all.extent();
+    for (Vec3d const& x : targets) {
+      Vec3d const r = x - sources.front();
+      double const distance = std::max({std::abs(r.x), std::abs(r.y), std::abs(r.z)});
+      if (distance > 0.0) size = std::min(size, distance);
+    }
+  }
+  return all.extent() > most * size;
+}
+
 bool has_close_pair(ConstPoints sources, ConstPoints targets, double distance) {
   Vec3d const origin = bounding_box(sources, targets).centre();
   std::vector<Projected> points;

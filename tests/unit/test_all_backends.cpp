@@ -222,6 +222,24 @@ TEST(All_backends, keep_the_accuracy_at_few_targets_where_velocities_cancel) {
   }
 }
 
+TEST(All_backends, keep_the_accuracy_between_sources_that_a_far_target_dwarfs) {
+  for (std::size_t n_source : {1, 3, 600})
+    for (double far : {1e25, 1e99}) {
+      Problem p = random_problem(n_source, 5);
+      Problem with_far = p;
+      with_far.targets.push_back({far, 0.0, -far});
+      for (auto const& kernel : kernels()) {
+        auto const exact = p.velocity("reference", kernel, 1e-15);
+        for (auto const& backend : backend_names()) {
+          auto velocity = with_far.velocity(backend, kernel, 1e-6);
+          EXPECT_LT(norm(velocity.back()), 1e-22) << backend << " " << kernel;  // 600 strengths of size 1
+          velocity.pop_back();
+          EXPECT_LE(difference(velocity, exact), 1e-6) << backend << " " << kernel << " " << far << " " << n_source;
+        }
+      }
+    }
+}
+
 TEST(All_backends, refuse_coordinates_that_are_not_finite) {
   for (double const bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     for (auto const& backend : backend_names()) {
