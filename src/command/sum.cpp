@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "base/timer.hpp"
+#include "command/json.hpp"
 #include "io/points_file.hpp"
 #include "kernels/list.hpp"
 
@@ -126,10 +127,10 @@ void sum(SumOptions const& options) {
   double const pairs = double(points.sources.size()) * double(points.targets.size());
   fmt::print(
       "{{\"kernel\": \"{}\", \"n\": {}, \"m\": {}, \"accuracy\": {:g}, \"backend\": \"{}\", \"setup_seconds\": {:.6g}, "
-      "\"execute_seconds\": {:.6g}, \"pairs_per_second\": {:.4g}, \"error\": {}, \"output\": \"{}\"}}\n",
+      "\"execute_seconds\": {:.6g}, \"pairs_per_second\": {:.4g}, \"error\": {}, \"output\": {}}}\n",
       options.kernel, points.sources.size(), points.targets.size(), options.accuracy, evaluator->backend(),
       seconds_setup, seconds, seconds > 0.0 ? pairs / seconds : 0.0, error ? fmt::format("{:.3g}", *error) : "null",
-      options.output);
+      json_text(options.output));
 }
 
 }  // namespace

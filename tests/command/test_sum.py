@@ -129,6 +129,11 @@ class Sum(CommandTest):
                 line = json.loads(self.sum("--kernel", kernel, "--reference-error").stdout)
                 self.assertLess(line["error"], 1e-6)
 
+    def test_prints_json_whatever_the_output_is_called(self):
+        self.write()
+        self.output = self.folder / 'a "b" \\c.h5'
+        self.assertEqual(json.loads(self.sum().stdout)["output"], str(self.output))
+
     def test_accepts_single_precision_and_whole_numbers(self):
         self.write(sources=np.arange(900).reshape(300, 3), strengths=self.points["strengths"].astype("f4"))
         self.sum()
