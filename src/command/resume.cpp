@@ -31,10 +31,12 @@ void refuse_changed_scene(TrajectoryHeader const& header, std::string const& fol
                                  "a new run with -o", header.scene_file, folder));
 }
 
+bool moves_end(std::string const& one) { return one.starts_with("run.end_time="); }
+
 // Only the end of the run may be moved: everything else would be another run.
 void refuse_other_overrides(std::vector<std::string> const& overrides) {
   for (auto const& one : overrides)
-    if (!one.starts_with("run.end_time="))
+    if (!moves_end(one))
       throw SceneError(fmt::format("--set {}: a resumed run can only change run.end_time; start a new run for anything "
                                    "else", one));
 }
@@ -45,6 +47,7 @@ void resume(ResumeOptions const& options) {
   auto const& header = reader.header();
   refuse_changed_scene(header, options.folder);
   auto overrides = header.overrides;
+  if (!options.overrides.empty()) std::erase_if(overrides, moves_end);
   overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
   Scene const scene = parse_scene(header.scene_text, header.scene_file, overrides);
 
@@ -58,7 +61,7 @@ void resume(ResumeOptions const& options) {
   int signal = 0;
   catch_signals();
   {
-    auto trajectory = TrajectoryWriter::resume(options.folder);
+    auto trajectory = TrajectoryWriter::resume(options.folder, overrides);
     Simulation simulation(scene);
     if (has_started) simulation.restore(time, reader.restart());
     else store_state(simulation, trajectory);

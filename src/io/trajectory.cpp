@@ -61,6 +61,8 @@ void reserve(fs::path const& path, std::size_t bytes) {
   if (error != 0 && error != EINVAL && error != EOPNOTSUPP) fail_to_write(path, error);
 }
 
+std::string text_of(std::vector<std::string> const& overrides) { return fmt::format("{}", fmt::join(overrides, "\n")); }
+
 void write_header(fs::path const& path, TrajectoryHeader const& header) {
   ArrayFile file(path, ArrayFile::Mode::create);
   file.write({"header/layout", {}, std::vector<std::int64_t>{layout}, ""});
@@ -69,7 +71,7 @@ void write_header(fs::path const& path, TrajectoryHeader const& header) {
   file.write_text("header/versions", header.versions);
   file.write_text("header/scene", header.scene_text);
   file.write_text("header/scene_file", header.scene_file);
-  file.write_text("header/overrides", fmt::format("{}", fmt::join(header.overrides, "\n")));
+  file.write_text("header/overrides", text_of(header.overrides));
   file.close();
 }
 
@@ -116,7 +118,7 @@ TrajectoryWriter::TrajectoryWriter(fs::path folder) : folder_(std::move(folder))
 
 TrajectoryWriter::TrajectoryWriter(TrajectoryWriter&& other) noexcept
     : folder_(std::move(other.folder_)), lock_(std::exchange(other.lock_, -1)), next_exists_(other.next_exists_),
-      last_(std::move(other.last_)) {}
+      last_(std::move(other.last_)), overrides_(std::move(other.overrides_)) {}
 
 TrajectoryWriter::~TrajectoryWriter() {
   if (lock_ < 0) return;
@@ -128,15 +130,17 @@ TrajectoryWriter::~TrajectoryWriter() {
 TrajectoryWriter TrajectoryWriter::create(fs::path folder, TrajectoryHeader const& header) {
   make_empty_folder(folder);
   TrajectoryWriter writer(std::move(folder));
+  writer.overrides_ = text_of(header.overrides);
   write_header(next(writer.folder_), header);
   synchronise(next(writer.folder_));
   fs::rename(next(writer.folder_), current(writer.folder_));
   return writer;
 }
 
-TrajectoryWriter TrajectoryWriter::resume(fs::path folder) {
+TrajectoryWriter TrajectoryWriter::resume(fs::path folder, std::vector<std::string> const& overrides) {
   TrajectoryReader const check(folder);
   TrajectoryWriter writer(std::move(folder));
+  writer.overrides_ = text_of(overrides);
   fs::remove(next(writer.folder_));
   fs::remove(former(writer.folder_));
   return writer;
@@ -168,6 +172,10 @@ void TrajectoryWriter::write_next(Frame const& frame, std::vector<NamedArray> co
   ArrayFile file(path, ArrayFile::Mode::append);
   if (next_exists_) write_frame(file, last_);
   write_frame(file, frame);
+  if (file.read_text("header/overrides") != overrides_) {
+    file.remove("header/overrides");
+    file.write_text("header/overrides", overrides_);
+  }
   file.remove("restart");
   for (NamedArray array : restart) {
     array.name = "restart/" + array.name;

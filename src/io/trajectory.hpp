@@ -42,8 +42,8 @@ class TrajectoryWriter {
  public:
   // A new trajectory in a folder that is empty or not there yet. Throws SceneError otherwise.
   static TrajectoryWriter create(std::filesystem::path folder, TrajectoryHeader const& header);
-  // Goes on with one that is there.
-  static TrajectoryWriter resume(std::filesystem::path folder);
+  // Goes on with one that is there, under these overrides from the next state on.
+  static TrajectoryWriter resume(std::filesystem::path folder, std::vector<std::string> const& overrides);
 
   ~TrajectoryWriter();
   TrajectoryWriter(TrajectoryWriter&& other) noexcept;
@@ -62,6 +62,7 @@ class TrajectoryWriter {
   int lock_ = -1;              // file descriptor of the folder
   bool next_exists_ = false;   // trajectory-next.h5 holds all but the last state
   Frame last_;                 // that state
+  std::string overrides_;      // text of header/overrides
 };
 
 class TrajectoryReader {

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   try {
     std::int64_t i = 0;
     bool const goes_on = std::filesystem::exists(folder / "trajectory.h5");
-    auto writer = goes_on ? TrajectoryWriter::resume(folder)
+    auto writer = goes_on ? TrajectoryWriter::resume(folder, {"run.seed=2"})
                           : TrajectoryWriter::create(folder, {"[fluid]\n", "/scene.toml", {"run.seed=2"}, "test", 2});
     if (goes_on)
       for (auto const& array : TrajectoryReader(folder).restart())

@@ -74,6 +74,24 @@ class Run(SceneTest):
         self.assertIn("asterflow resume", process.communicate(timeout=60)[1])
         self.assertEqual([path.name for path in self.out.iterdir()], ["trajectory.h5"])
 
+    def test_an_extended_run_that_is_interrupted_goes_on_to_its_new_end(self):
+        self.run_scene(ASTER)
+        whole = contents(self.trajectory)
+        self.out = self.folder / "extended"
+        self.run_scene(ASTER, "--set", "run.end_time=0.5")
+        process = subprocess.Popen([ASTERFLOW, "resume", self.out, "--set", "run.end_time=3"], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        before = (self.out / "trajectory.h5").stat().st_ino
+        while (self.out / "trajectory.h5").stat().st_ino == before and process.poll() is None:
+            time.sleep(0.001)
+        process.kill()
+        process.wait()
+        self.expect_done("resume", self.out)
+        parts = contents(self.out / "trajectory.h5")
+        self.assertEqual(whole.keys(), parts.keys())
+        for name in whole:
+            self.assertEqual(np.asarray(whole[name]).tobytes(), np.asarray(parts[name]).tobytes(), name)
+
     def test_a_complete_run_is_left_alone(self):
         self.run_scene(BALL, "--set", "run.end_time=0.5")
         before = self.trajectory.read_bytes()
