@@ -84,7 +84,8 @@ fs::path prepare_folder(DragOptions const& options, Scene const& scene) {
   fs::create_directories(folder, error);
   if (error || ::access(folder.c_str(), W_OK) != 0)
     throw SceneError(folder.string() + ": cannot be used for output; choose another folder with -o");
-  std::ofstream(folder / "drag.toml", std::ios::binary) << identity_of(scene);
+  if (read_text(folder / "drag.toml") != identity_of(scene))
+    write_whole_text(folder / "drag.toml", [&](std::ostream& file) { file << identity_of(scene); });
   return folder;
 }
 

@@ -20,6 +20,8 @@ std::size_t studied_body(Scene const& scene) {
   if (scene.bodies[body].motion != BodySpec::Motion::free)
     refuse("[[body]] \"" + scene.bodies[body].name + "\": motion: must be \"free\" for its drag to be studied");
   if (scene.background) refuse("[background]: moves bodies without force; a drag is studied in fluid at rest");
+  for (int const count : scene.drag.fiber_counts)
+    if (count > 0 && scene.asters.empty()) refuse("[drag]: fiber_counts: needs an [[aster]] to hold the fibers");
   return static_cast<std::size_t>(body);
 }
 
@@ -32,7 +34,6 @@ Scene scene_of(Scene scene, std::size_t body, Interactions level, int fiber_coun
     scene.asters[i].count = share;
     rest -= share;
   }
-  if (rest > 0) throw SceneError(scene.file + ": [drag]: fiber_counts: needs an [[aster]] to hold the fibers");
   scene.bodies[body].force = pull == Pull::force ? scene.drag.force : Vec3d{};
   scene.bodies[body].torque = pull == Pull::torque ? scene.drag.torque : Vec3d{};
   return scene;

@@ -48,6 +48,11 @@ class BadRun(SceneTest):
         other = '[[body]]\nshape = "sphere"\nradius = 1\nposition = [2, 0, 0]\n'
         self.refused(BALL + other, names=["[[body]] #2", "overlaps", "ball"])
 
+    def test_refuses_a_drag_study_without_asters_before_it_starts(self):
+        self.scene.write_text(CELL)
+        self.expect_refusal("drag", self.scene, "-o", self.out, names=["[drag]", "fiber_counts", "[[aster]]"])
+        self.assertFalse((self.out / "drag.csv").exists())
+
     def test_refuses_output_that_cannot_be_written(self):
         self.scene.write_text(BALL)
         self.expect_refusal("run", self.scene, "-o", "/proc/asterflow", names=["/proc/asterflow"])
