@@ -82,9 +82,25 @@ void check_steady_lengths(SceneTables const& tables, Scene const& scene) {
       tables.asters[i].fail("lengths", "\"steady\" needs growing = true and tables [dynamic_instability] and [periphery]");
 }
 
+// Fibers shrink to the minimal length of [dynamic_instability] before they start again.
+void check_slenderness(Table const& table, FiberMaterialSpec const& material, double minimal_length) {
+  if (material.growing && material.radius > 0.25 * minimal_length)
+    table.fail("radius", fmt::format("must be at most a quarter of minimal_length = {:g} um of [dynamic_instability]", minimal_length));
+}
+
+bool has_growing_fibers(Scene const& scene) {
+  auto const grows = [](auto const& one) { return one.material.growing; };
+  return std::any_of(scene.fibers.begin(), scene.fibers.end(), grows) || std::any_of(scene.asters.begin(), scene.asters.end(), grows);
+}
+
 void check_growth(SceneTables const& tables, Scene const& scene) {
   check_steady_lengths(tables, scene);
-  if (scene.dynamic_instability) return;
+  if (scene.dynamic_instability) {
+    double const minimal_length = scene.dynamic_instability->minimal_length;
+    for (std::size_t i = 0; i < scene.fibers.size(); ++i) check_slenderness(tables.fibers[i], scene.fibers[i].material, minimal_length);
+    for (std::size_t i = 0; i < scene.asters.size(); ++i) check_slenderness(tables.asters[i], scene.asters[i].material, minimal_length);
+    return;
+  }
   for (std::size_t i = 0; i < scene.fibers.size(); ++i)
     if (scene.fibers[i].material.growing) tables.fibers[i].fail("growing", "needs a table [dynamic_instability]");
   for (std::size_t i = 0; i < scene.asters.size(); ++i)
@@ -104,7 +120,7 @@ void check_cortex_mechanisms(SceneTables const& tables, Scene const& scene) {
   for (auto const& table : {tables.pushing, tables.cortical_pulling}) {
     if (!table) continue;
     if (!scene.periphery) table->fail("needs a table [periphery]: the cortex");
-    if (!scene.dynamic_instability) table->fail("needs a table [dynamic_instability] and fibers with growing = true");
+    if (!scene.dynamic_instability || !has_growing_fibers(scene)) table->fail("needs a table [dynamic_instability] and fibers with growing = true");
   }
   if (scene.pushing && scene.pushing->sliding != PushingSpec::Sliding::free && !scene.pushing->spring_stiffness) {
     bool held_in_space = false;

@@ -47,6 +47,18 @@ TEST(MechanismSpecs, good_tables_are_accepted_together) {
             "accepted");
 }
 
+TEST(MechanismSpecs, models_of_growing_fibers_need_one) {
+  std::string still = cell;
+  still.replace(still.find("growing = true"), 14, "growing = false");
+  for (char const* table : {"[pushing]\nsliding = \"free\"\n", "[cortical_pulling]\n"})
+    EXPECT_NE(refusal(still + table).find("fibers with growing = true"), std::string::npos) << refusal(still + table);
+}
+
+TEST(MechanismSpecs, growing_fibers_are_slender_at_every_length) {
+  expect_refusal("minimal_length = 0.04\n", "radius: must be at most a quarter of minimal_length = 0.04 um");
+  EXPECT_EQ(refusal(cell + "minimal_length = 0.05\n"), "accepted");
+}
+
 TEST(MechanismSpecs, wrong_signs_and_probabilities_over_one_are_refused) {
   expect_refusal("rescue_rate = -1\n", "rescue_rate = -1");
   expect_refusal("initially_shrinking = 1.5\n", "initially_shrinking = 1.5");
