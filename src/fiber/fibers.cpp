@@ -281,6 +281,15 @@ void Fibers::accept() {
   dt_1_ = dt_;
 }
 
+std::optional<Vec3d> Fibers::tip_velocity(std::size_t i) const {
+  Fiber const& fiber = fibers_[i];
+  if (fiber.n_past < 2) return std::nullopt;
+  double const coordinate = fiber.past[0].length;
+  Vec3d before{};
+  sample(fiber.past[1], {&coordinate, 1}, {&before, 1}, {});
+  return (plus_end(fiber.past[0]) - before) / dt_1_;
+}
+
 double Fibers::elastic_energy() const {
   double energy = 0.0;
   for (Fiber const& fiber : fibers_)

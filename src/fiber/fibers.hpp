@@ -13,6 +13,7 @@
 #include "fiber/fiber_response.hpp"
 #include "fiber/own_flow.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -93,6 +94,8 @@ class Fibers {
   Centreline const& trial_shape(std::size_t fiber) const { return fibers_[fiber].trial; }
   MinusEndSite const& site(std::size_t fiber) const { return fibers_[fiber].site; }
   FiberProperties const& properties(std::size_t fiber) const { return fibers_[fiber].properties; }
+  // Of the material at the plus end, um/s: the mean over the last step; none when that says nothing about the next.
+  std::optional<Vec3d> tip_velocity(std::size_t fiber) const;
   ConstVector tension(std::size_t fiber) const { return fibers_[fiber].tension; }  // [n_node] pN, positive: stretched
   // Of the last step; nothing before the first one.
   EndForces const& ends(std::size_t fiber) const { return fibers_[fiber].ends; }

@@ -59,8 +59,18 @@ void PlusEnds::add(std::size_t fiber, double length, double spring_stiffness) {
   if (pulling_) pulling_->add_tip();
   surroundings_.emplace_back();
   places_.emplace_back();
+  velocities_.emplace_back();
   speeds_.push_back(0.0);
   errors_.push_back(0.0);
+}
+
+// Of the material at the plus end, um/s: right to first order in dt, so that contact begins when it should to second order.
+Vec3d PlusEnds::tip_velocity(std::size_t fiber, Fibers const& fibers, std::span<RigidPose const> poses,
+                             std::span<Vector6 const> motions) const {
+  if (auto const velocity = fibers.tip_velocity(fiber)) return *velocity;
+  if (!fibers.site(fiber).is_attached()) return {};
+  int const body = fibers.site(fiber).body;
+  return velocity_of_motion(motions[body], plus_end(fibers.shape(fiber)) - poses[body].position);
 }
 
 TipSurroundings PlusEnds::surroundings(std::size_t i, Fibers const& fibers, std::span<RigidPose const> poses,
@@ -72,12 +82,10 @@ TipSurroundings PlusEnds::surroundings(std::size_t i, Fibers const& fibers, std:
   NearCortex const cortex = cortex_->near(tip);
   double const slope = dot(tangent, cortex.normal);
   double const contact = pushing_ ? pushing_->contact_distance() : 0.0;
+  velocities_[i] = tip_velocity(fiber, fibers, poses, motions);
   if (slope > least_slope) {
     around.clearance = std::max(0.0, cortex.distance - contact) / slope;
-    if (int const body = fibers.site(fiber).body; fibers.site(fiber).is_attached()) {
-      Vec3d const velocity = velocity_of_motion(motions[body], tip - poses[body].position);
-      around.approach_speed = dot(velocity, cortex.normal) / slope;
-    }
+    around.approach_speed = dot(velocities_[i], cortex.normal) / slope;
   } else if (slope > 0 && cortex.distance < contact) {
     around.clearance = 0.0;
   }
@@ -108,9 +116,8 @@ void PlusEnds::plan_loads(std::size_t i, Fibers& fibers) {
   }
   if (trial.contact_at && trial.state == TipState::pushing) {
     Centreline const& shape = fibers.shape(trial.fiber);
-    pushing_->make_contact(
-        i, plus_end(shape) + (growth_.spec().growth_speed * *trial.contact_at) * shape.tangents.back(),
-        dt_ - *trial.contact_at);
+    Vec3d const velocity = velocities_[i] + growth_.spec().growth_speed * shape.tangents.back();
+    pushing_->make_contact(i, plus_end(shape) + *trial.contact_at * velocity, dt_ - *trial.contact_at);
   }
 }
 

@@ -38,6 +38,8 @@ class PlusEnds {
  private:
   TipSurroundings surroundings(std::size_t tip, Fibers const& fibers, std::span<RigidPose const> poses,
                                std::span<Vector6 const> motions, double dt);
+  Vec3d tip_velocity(std::size_t fiber, Fibers const& fibers, std::span<RigidPose const> poses,
+                     std::span<Vector6 const> motions) const;
   void share_sites(double dt);
   void plan_loads(std::size_t tip, Fibers& fibers);
   void hold_pushing(std::size_t tip, Fibers& fibers, TipAnswer const& answer);
@@ -55,6 +57,7 @@ class PlusEnds {
   double dt_ = 0.0, plane_ = 0.0;  // of the step: s, um
   std::vector<TipSurroundings> surroundings_;
   PointArray places_;              // [n_tip] where sites look for tips, um
+  PointArray velocities_;          // [n_tip] um/s, of the material at the tip
   std::vector<double> speeds_;     // [n_tip] um/s, of captured fibers
   std::vector<double> errors_;     // [n_tip] um
 };

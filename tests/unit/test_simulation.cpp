@@ -111,6 +111,49 @@ TEST(Simulation, converges_at_second_order_in_time) {
   }
 }
 
+// Plus ends that come to the cortex on a body that turns and moves, and on a fiber that drifts.
+TEST(Simulation, plus_ends_turn_back_at_the_cortex_to_second_order_in_time) {
+  auto const lengths_after = [](double dt) {
+    Simulation simulation(scene_of(R"(
+      [periphery]
+      shape = "sphere"
+      radius = 6.0
+      [[body]]
+      shape = "sphere"
+      radius = 1.0
+      force = [0.0, 4.0, 3.0]
+      torque = [8.0, 0.0, 0.0]
+      [[fiber]]
+      body = "body1"
+      position = [0.0, 0.0, 1.0]
+      direction = [0.0, 0.0, 1.0]
+      length = 4.0
+      minus_end = "clamped"
+      growing = true
+      [[fiber]]
+      position = [-3.0, 0.0, 0.0]
+      direction = [0.0, -1.0, 0.2]
+      length = 4.0
+      force_density = [0.0, -0.2, 0.0]
+      growing = true
+      [dynamic_instability]
+      catastrophe_rate = 0.0
+      [run]
+      interactions = "local"
+      accuracy = 1e-4
+      adaptive = false
+      time_step = )" + std::to_string(dt)));
+    while (simulation.time() < 2.4) simulation.step(2.4);
+    return Eigen::Vector2d(simulation.fibers().shape(0).length, simulation.fibers().shape(1).length);
+  };
+  auto const coarse = lengths_after(0.08), fine = lengths_after(0.02), exact = lengths_after(0.002);
+  for (int fiber : {0, 1}) {
+    EXPECT_LT(exact[fiber], 5.0) << fiber;                           // it has turned back
+    EXPECT_LT(std::abs(coarse[fiber] - exact[fiber]), 4e-4) << fiber;  // of first order it would be 2e-3
+    EXPECT_LT(std::abs(fine[fiber] - exact[fiber]), 4e-5) << fiber;
+  }
+}
+
 TEST(Simulation, restart_goes_on_bit_for_bit) {
   std::string const text = moving_scene + "[run]\ninteractions = \"open\"\naccuracy = 1e-3\n";
   Simulation whole(scene_of(text)), resumed(scene_of(text));
