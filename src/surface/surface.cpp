@@ -12,7 +12,7 @@ Vec3d product(Eigen::Matrix3d const& a, Vec3d v) {
 }
 
 bool is_axisymmetric(Shape const& shape, Grading const& grading) {
-  if (shape.aspect_ratio() == 1.0) return true;
+  if (shape.aspect_ratio() == 1.0 && norm(shape.centre()) == 0.0) return true;  // about every axis of its frame
   return shape.axisymmetric() && std::abs(grading.frame()(shape.polar_axis(), 0)) > 1.0 - 1e-15;
 }
 

@@ -150,6 +150,18 @@ TEST(Resistance, turning_and_moving_the_scene_turns_the_answer) {
   EXPECT_LT((moved.resistance - expected).norm() / expected.norm(), 1e-6);
 }
 
+// A sphere that is no sphere to the program: its axis does not go through the contact.
+TEST(Resistance, cell_given_by_a_profile_beside_the_origin_is_the_same_cell) {
+  ShapeSpec spec;
+  spec.kind = ShapeSpec::Kind::revolution;
+  for (int i = 0; i <= 24; ++i) spec.profile.push_back({3.0 - 4.0 * std::cos(pi * i / 24), 4.0 * std::sin(pi * i / 24)});
+  spec.profile.front()[1] = spec.profile.back()[1] = 0.0;
+  PlacedSurface const cell{make_shape(spec), {}};
+  Resistance const plain = solve_resistance({sphere(1.0, {1.0, 0.5, 0.0})}, sphere(4.0), {.accuracy = 1e-5, .order = 8});
+  Resistance const moved = solve_resistance({sphere(1.0, {4.0, 0.5, 0.0})}, cell, {.accuracy = 1e-5, .order = 8});
+  EXPECT_LT((moved.resistance - plain.resistance).norm() / plain.resistance.norm(), 1e-4);
+}
+
 TEST(Resistance, overlapping_surfaces_and_unresolved_gaps_are_refused) {
   EXPECT_THROW(solve_resistance({sphere(1.0), sphere(1.0, {1.5, 0, 0})}, std::nullopt, {}), SceneError);
   EXPECT_THROW(solve_resistance({sphere(5.0, {11, 0, 0})}, sphere(15.0), {}), SceneError);
