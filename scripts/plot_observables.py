@@ -20,17 +20,22 @@ PANELS = (
     ("position of the first body", "um", {"_x": "x", "_y": "y", "_z": "z"}),
     ("angle of its axis to x", "degrees", {"_angle": None}),
     ("speeds", "um/s", {"_speed": "body", "fluid_speed_mean": "fluid, mean", "fluid_speed_largest": "fluid, largest"}),
+    ("its turning", "rad/s", {"_angular_speed": None}),
+    ("fluid, mean speed over the body's", "", {"fluid_speed_ratio": None}),
     ("plus ends", "fibers", {"fibers_growing": "growing", "fibers_shrinking": "shrinking",
                              "fibers_pushing": "pushing", "fibers_captured": "captured"}),
     ("forces at the ends", "pN", {"plus_end_force": "plus ends", "minus_end_force": "minus ends",
                                   "net_plus_end_force": "plus ends, net", "net_minus_end_force": "minus ends, net"}),
+    ("forces at the ends, minus over plus", "", {"end_force_ratio": None}),
     ("tension", "pN", {"tension_least": "least", "tension_mean": "mean", "tension_largest": "largest"}),
     ("curvature", "1/um", {"curvature_mean": "root mean square", "curvature_largest": "largest"}),
     ("energy", "pN um", {"elastic_energy": "elastic"}),
     ("work per time", "pN um/s", {"motor_power": "motors", "tip_power": "plus ends", "body_power": "loads on bodies"}),
     ("force on the fluid", "pN", {"net_force_x": "x", "net_force_y": "y", "net_force_z": "z"}),
+    ("torque on the fluid about the origin", "pN um", {"net_torque_x": "x", "net_torque_y": "y", "net_torque_z": "z"}),
     ("puller index", "", {"puller_index": None}),
     ("flow along x beside the body", "um/s", {"flow_anterior_x": "anterior (-x)", "flow_posterior_x": "posterior (+x)"}),
+    ("slip between the nodes, relative", "", {"no_slip_residual": None}),
 )
 
 
@@ -41,12 +46,18 @@ def read_table(path):
     return dict(zip(rows[0], np.array(rows[1:], dtype=float).T))
 
 
-def draw_panel(axis, table, body, panel):
-    title, unit, columns = panel
+def curves(table, body, columns):
+    """Values [n_time] and label of the columns that have any."""
     for column, label in columns.items():
         values = table.get(body + column if column.startswith("_") else column)
         if values is not None and np.isfinite(values).any():
-            axis.plot(table["time"], values, label=label, linewidth=1.2)
+            yield values, label
+
+
+def draw_panel(axis, table, body, panel):
+    title, unit, columns = panel
+    for values, label in curves(table, body, columns):
+        axis.plot(table["time"], values, label=label, linewidth=1.2)
     axis.set(title=title, xlabel="time (s)", ylabel=unit)
     axis.grid(alpha=0.3)
     if len(axis.get_legend_handles_labels()[0]) > 1:
@@ -69,11 +80,12 @@ def main():
         sys.exit(__doc__)
     table, lengths = read_table(sys.argv[1]), read_table(sys.argv[2])
     bodies = [name[:-2] for name in table if name.endswith("_x") and f"{name[:-2]}_speed" in table]
-    panels = PANELS if bodies else PANELS[3:]
-    figure, axes = plt.subplots(4, 4, figsize=(16, 12), constrained_layout=True)
+    body = bodies[0] if bodies else ""
+    panels = [panel for panel in PANELS if any(curves(table, body, panel[2]))]
+    figure, axes = plt.subplots(4, 5, figsize=(20, 12), constrained_layout=True)
     axes = axes.ravel()
     for axis, panel in zip(axes, panels):
-        draw_panel(axis, table, bodies[0] if bodies else "", panel)
+        draw_panel(axis, table, body, panel)
     draw_lengths(axes[len(panels)], lengths)
     for axis in axes[len(panels) + 1:]:
         axis.remove()
