@@ -94,7 +94,7 @@ struct NearWork {
   NearSegment const* segments;
   std::uint16_t const* list;
   double velocity_scale, gradient_scale;
-  Real* reactions;  // [place, 4], added to: three components and padding
+  Real* reactions;  // [place, 4], added to: three components and padding; null where all pairs are one way
 };
 
 // Which sources may lie within `reach` of a group of targets, all in normalised float coordinates.

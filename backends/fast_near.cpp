@@ -127,7 +127,7 @@ void NearField<Real>::add_close(NearLists::Leaf const& leaf, Vec3d* velocity, Ve
 template <class Real>
 void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient) {
   NearLists::Leaf const& leaf = lists_.leaves()[item];
-  Real* const reactions = reactions_.data() + 4 * leaf.first_place;
+  Real* const reactions = leaf.n_place > 0 ? reactions_.data() + 4 * leaf.first_place : nullptr;
   std::fill_n(reactions, 4 * leaf.n_place, Real(0));
   NearWork<Real> const work{kernel_, local_.terms, refinement_steps_, levels_.data(),
                             records_.data(), record_, &lists_.targets().data()->x, leaf.groups.data(),

@@ -83,11 +83,12 @@ struct NearLoop {
     }
   };
 
-  // The strengths of the group's own points, zero in lanes without.
+  // The strengths of the group's own points, zero in lanes without; they are sources where there are reactions.
   struct Strengths {
-    P at[6];
+    P at[6] = {};
 
     Strengths(NearWork<Real> const& work, NearGroup const& group) {
+      if (!work.reactions) return;
       for (int d = 0; d < work.record - offset; ++d)
         for (int i = 0; i < W; ++i)
           at[d][i] = i < group.n_target ? work.records[(group.target + i) * work.record + offset + d] : Real(0);

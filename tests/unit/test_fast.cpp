@@ -84,6 +84,14 @@ TEST_P(FastSum, takes_targets_that_are_not_sources) {
   EXPECT_LE(error(GetParam(), 1e-6, c), 1e-6);
 }
 
+// A picture of the flow around a few fibers.
+TEST_P(FastSum, takes_far_more_targets_than_sources) {
+  PointSet c = point_set(GetParam(), "uniform", 60);
+  c.targets.clear();
+  for (long i = 0; i < 20000; ++i) c.targets.push_back(random_vector(i, 9));
+  EXPECT_LE(error(GetParam(), 1e-3, c), 1e-3);
+}
+
 TEST_P(FastSum, honours_the_accuracy_at_far_targets_alone) {
   for (long n_target : {1, 600}) {
     PointSet c = point_set(GetParam(), "uniform", 2000);
