@@ -2,6 +2,7 @@
 
 #include "base/timer.hpp"
 #include "io/scene.hpp"
+#include "mechanism/cytoplasmic_pulling.hpp"
 #include "system/flows.hpp"
 #include "system/simulation.hpp"
 
@@ -94,6 +95,35 @@ void print_fibers(Scene const& scene, Fibers const& fibers) {
                                    scene.dynamic_instability ? "; dynamic instability" : ""));
 }
 
+std::string_view sliding_words(PushingSpec::Sliding sliding) {
+  switch (sliding) {
+    case PushingSpec::Sliding::none: return "without sliding";
+    case PushingSpec::Sliding::friction: return "sliding with friction";
+    case PushingSpec::Sliding::free: break;
+  }
+  return "sliding freely";
+}
+
+// The active mechanisms, one line each.
+void print_mechanisms(Scene const& scene) {
+  if (auto const& growth = scene.dynamic_instability)
+    print_line("growth", fmt::format("at {:g} um/s, shrinkage at {:g} um/s; catastrophes {:g} / s, rescues {:g} / s",
+                                     growth->growth_speed, growth->shrinkage_speed, growth->catastrophe_rate, growth->rescue_rate));
+  if (auto const& pulling = scene.cytoplasmic_pulling)
+    print_line("motors", fmt::format("{:g} / um pull with {:.3g} pN each", pulling->motor_density,
+                                     motor_force(*pulling, scene.fluid.viscosity)));
+  if (auto const& pushing = scene.pushing)
+    print_line("pushing", fmt::format("plus ends push the cortex, {}", sliding_words(pushing->sliding)));
+  if (auto const& pulling = scene.cortical_pulling)
+    print_line("cortical sites", fmt::format("{} pull with {:g} pN each",
+                                             pulling->positions.empty() ? pulling->sites : static_cast<int>(pulling->positions.size()),
+                                             pulling->pull_force));
+  if (auto const& repulsion = scene.steric_repulsion)
+    print_line("repulsion", fmt::format("within {:g} um:{}{}{}", repulsion->range, repulsion->fiber_cortex ? " fibers and cortex," : "",
+                                        repulsion->fiber_body ? " fibers and their body," : "",
+                                        repulsion->body_cortex ? " bodies and cortex" : ""));
+}
+
 void print_solver(Scene const& scene, Simulation const& simulation, long n_surface_node) {
   auto const& run = scene.run;
   std::size_t const n_fiber_node = simulation.fibers().node_count();
@@ -125,6 +155,7 @@ void check(CheckOptions const& options) {
   Scene const scene = read_scene(options.scene, options.overrides);
   print_line("scene", options.scene + ": valid");
   long const n_surface_node = print_objects(scene);
+  print_mechanisms(scene);
   if (options.is_quick) return;
   Timer timer;
   Simulation simulation(scene);
