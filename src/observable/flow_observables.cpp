@@ -80,8 +80,10 @@ void add_applied_to_fiber(StoredFibers const& fibers, std::size_t i, ConstPoints
   sum.add(minus_end, fibers.contact_force[i], fibers.contact_torque[i]);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     sum.add(nodes[k], fibers.weight[static_cast<std::size_t>(fibers.first[i]) + k] * fibers.external_load[i]);
-  if (fibers.body[i] < 0)  // what holds it in space gives this back
-    sum.add(minus_end, -fibers.minus_end_force[i], -fibers.minus_end_torque[i]);
+  MinusEnd const kind = fibers.material[i].minus_end;
+  if (fibers.body[i] >= 0 || kind == MinusEnd::free) return;
+  // What holds it in space gives this back; a hinge no torque.
+  sum.add(minus_end, -fibers.minus_end_force[i], kind == MinusEnd::clamped ? -fibers.minus_end_torque[i] : Vec3d{});
 }
 
 // From outside on plus ends, along fibers and on free bodies; NaN with held bodies, whose holder is not stored.
