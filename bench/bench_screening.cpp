@@ -27,9 +27,7 @@ struct Cell {
 };
 
 Cell make_cell(Vec3d axes, int order, double accuracy, bool is_curved) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = axes;
+  ShapeSpec const spec{.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = axes};
   auto flow = std::make_unique<DirichletFlow>(plain_surface(spec, order), Side::interior, accuracy);
   ImageWall const wall(flow->surface(), Side::interior, is_curved);
   return {std::move(flow), wall, make_screened_forces(wall, accuracy)};

@@ -11,9 +11,7 @@ using namespace asterflow;
 namespace {
 
 CortexSurface ellipsoid() {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = {5.0, 3.0, 2.0};
+  ShapeSpec const spec{.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = {5.0, 3.0, 2.0}};
   return {make_shape(spec), 0.1};
 }
 

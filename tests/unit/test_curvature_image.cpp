@@ -40,9 +40,7 @@ double largest_slip(Vec3d force, double k_1, double k_2) {
 }
 
 Surface surface(std::vector<std::array<double, 2>> const& profile) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::revolution;
-  spec.profile = profile;
+  ShapeSpec const spec{.kind = ShapeSpec::Kind::revolution, .profile = profile};
   return Surface(make_shape(spec), 10);
 }
 
@@ -58,9 +56,7 @@ TEST(CurvatureImage, leaves_the_square_of_the_curvature_of_any_force) {
 
 // k_1 = b / a^2 along the meridian, k_2 = 1 / b across at the equator; both a / b^2 at the pole.
 TEST(LocalGeometry, of_an_ellipsoid_has_its_curvatures) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = {25, 15, 15};
+  ShapeSpec const spec{.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = {25, 15, 15}};
   LocalGeometry const equator = local_geometry(*make_shape(spec), {0, 0, 1}), pole = local_geometry(*make_shape(spec), {1, 0, 0});
   EXPECT_NEAR(equator.curvature[0], 1.0 / 15, 1e-7);
   EXPECT_NEAR(equator.curvature[1], 15.0 / 625, 1e-7);

@@ -16,9 +16,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 std::shared_ptr<Shape const> ellipsoid(Vec3d semi_axes) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = semi_axes;
+  ShapeSpec const spec{.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = semi_axes};
   return make_shape(spec);
 }
 

@@ -10,9 +10,7 @@ using namespace asterflow;
 namespace {
 
 Surface surface_of(Vec3d semi_axes, SphereGrid const& grid, double width = 0.0) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = semi_axes;
+  ShapeSpec const spec{.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = semi_axes};
   auto shape = make_shape(spec);
   return width > 0.0 ? Surface(shape, grid, Grading(pole_frame(normalized(Vec3d{1, 1, 0.3})), width)) : Surface(shape, grid);
 }
@@ -83,9 +81,7 @@ TEST(DoubleLayer, crowding_the_nodes_does_not_change_the_integral) {
 
 // So far that the quadrature meets the target itself: this was not a number.
 TEST(DoubleLayer, takes_nodes_that_are_crowded_anywhere) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = {25, 15, 15};
+  ShapeSpec const spec{.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = {25, 15, 15}};
   Vec3d const pole{0.6417529228371007, 0.695897632996899, 0.32230369284162924};
   Surface const crowded(make_shape(spec), 13, Grading(pole_frame(pole), 0.0337));
   EXPECT_TRUE(DoubleLayer(crowded, Side::interior, 9.0).equation().allFinite());

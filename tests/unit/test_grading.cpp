@@ -22,8 +22,7 @@ TEST(Grading, angles_and_their_inverse_agree_and_the_slope_is_the_derivative) {
 }
 
 TEST(Grading, crowded_nodes_still_integrate_the_area) {
-  ShapeSpec spec;
-  spec.radius = 2.0;
+  ShapeSpec const spec{.radius = 2.0};
   Surface const surface(make_shape(spec), 30, Grading(pole_frame(normalized(Vec3d{1, 2, -2})), 0.2));
   EXPECT_NEAR(surface.area() / (16.0 * std::numbers::pi), 1.0, 1e-10);
   double nearest = 4.0;

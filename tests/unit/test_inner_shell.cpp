@@ -10,10 +10,7 @@ using namespace asterflow;
 namespace {
 
 ShapeSpec ellipsoid(Vec3d semi_axes) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = {semi_axes.x, semi_axes.y, semi_axes.z};
-  return spec;
+  return {.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = {semi_axes.x, semi_axes.y, semi_axes.z}};
 }
 
 // Flow of forces half a micron behind the wall.

@@ -10,9 +10,7 @@ using namespace asterflow;
 namespace {
 
 Surface spheroid(double a, double b, int order) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = {a, b, b};
+  ShapeSpec const spec{.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = {a, b, b}};
   return Surface(make_shape(spec), order);
 }
 

@@ -17,8 +17,7 @@ namespace {
 class OperatorCache : public CacheFixture {
  protected:
   static OperatorKey key(double radius, int order = 6) {
-    ShapeSpec spec;
-    spec.radius = radius;
+    ShapeSpec const spec{.radius = radius};
     return OperatorKey(Surface(make_shape(spec), order), Side::interior, 8, 1e-6);
   }
   ShellOperator::Matrices const matrices_{Eigen::MatrixXd::Random(3, 5), Eigen::MatrixXd(0, 0), Eigen::MatrixXd::Random(2, 2)};

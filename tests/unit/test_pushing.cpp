@@ -9,8 +9,7 @@ using namespace asterflow;
 namespace {
 
 std::shared_ptr<Shape const> sphere(double radius) {
-  ShapeSpec spec;
-  spec.radius = radius;
+  ShapeSpec const spec{.radius = radius};
   return make_shape(spec);
 }
 

@@ -15,9 +15,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 PlacedSurface ellipsoid(Vec3d semi_axes, Vec3d position = {}) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = semi_axes;
+  ShapeSpec const spec{.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = semi_axes};
   return {make_shape(spec), position};
 }
 

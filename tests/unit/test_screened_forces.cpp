@@ -26,10 +26,7 @@ Cell make_cell(ShapeSpec const& spec, int order, bool is_curved = false) {
 }
 
 ShapeSpec ellipsoid(Vec3d semi_axes) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = semi_axes;
-  return spec;
+  return {.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = semi_axes};
 }
 
 Vec3d velocity(Cell const& cell, Vec3d x, Vec3d y, Vec3d f) {
@@ -78,9 +75,7 @@ TEST(ScreenedForces, act_far_away_as_they_should_in_a_flat_cell_with_its_axis_al
 }
 
 TEST(ScreenedForces, act_far_away_as_they_should_in_a_pear) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::revolution;
-  spec.profile = {{-9, 0}, {-8, 5}, {-4, 9}, {0, 10}, {5, 8}, {9, 4.6}, {11, 0}};
+  ShapeSpec const spec{.kind = ShapeSpec::Kind::revolution, .profile = {{-9, 0}, {-8, 5}, {-4, 9}, {0, 10}, {5, 8}, {9, 4.6}, {11, 0}}};
   EXPECT_LT(distant_error(make_cell(spec, 20), {-1, -1, 0.4}, 0.1), 2e-5);
 }
 
@@ -126,8 +121,7 @@ double near_error(Cell const& cell, double distance) {
 }  // namespace
 
 TEST(ScreenedForces, act_nearby_as_they_should_the_better_where_images_follow_the_curvature) {
-  ShapeSpec spec;
-  spec.radius = 10.0;
+  ShapeSpec const spec{.radius = 10.0};
   Cell const plane = make_cell(spec, 16), curved = make_cell(spec, 16, true);
   for (auto const& [distance, most] : {std::pair{0.02, 1e-5}, {0.2, 7e-4}, {1.0, 8e-3}}) {  // nodes are 2 um apart
     double const error = near_error(curved, distance);

@@ -14,16 +14,11 @@ using namespace asterflow;
 namespace {
 
 ShapeSpec ellipsoid(double a, double b, double c) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = {a, b, c};
-  return spec;
+  return {.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = {a, b, c}};
 }
 
 ShapeSpec sphere(double radius) {
-  ShapeSpec spec;
-  spec.radius = radius;
-  return spec;
+  return {.radius = radius};
 }
 
 

@@ -12,17 +12,13 @@ namespace {
 constexpr double viscosity = 1.7;
 
 Radiation::Flow cell(int order) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = {25, 15, 15};
+  ShapeSpec const spec{.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = {25, 15, 15}};
   return std::make_shared<DirichletFlow const>(Surface(make_shape(spec), order), Side::interior, 1e-8);
 }
 
 // A wall that is nearly plane: a sphere of radius 1e5 um, whose inside is x < 0 at the origin.
 Surface plane() {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::sphere;
-  spec.radius = 1e5;
+  ShapeSpec const spec{.radius = 1e5};
   return Surface(make_shape(spec), 8);
 }
 Vec3d const origin{1e5, 0, 0};
@@ -60,9 +56,7 @@ TEST(WallImages, of_a_fiber_act_on_it_from_no_closer_than_it_is_resolved) {
 }
 
 TEST(WallImages, merge_for_a_rough_flow_far_from_the_origin) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::sphere;
-  spec.radius = 300;
+  ShapeSpec const spec{.radius = 300};
   Surface const wall(make_shape(spec), 8);  // nodes 100 um apart
   WallImages images(ImageWall(wall, Side::interior, false));
   RigidPose pose;
@@ -92,9 +86,7 @@ TEST(WallImages, are_not_made_of_distant_forces) {
 }
 
 TEST(WallImages, stay_within_a_thin_body) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::ellipsoid;
-  spec.semi_axes = {3, 0.3, 0.3};
+  ShapeSpec const spec{.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = {3, 0.3, 0.3}};
   Surface const rod(make_shape(spec), 6);  // nodes 1.6 um apart
   WallImages images(ImageWall(rod, Side::exterior, false));
   images.place({}, PointArray{{0, 1.0, 0}, {0, 0.4, 0}}, std::vector{0.1, 0.1}, {0, 2});
@@ -113,9 +105,7 @@ struct HeldBall {
 
 // What the force f at y does to a ball that is held, and to the fluid at x.
 HeldBall answer_of_ball(Vec3d x, Vec3d y, Vec3d f) {
-  ShapeSpec spec;
-  spec.kind = ShapeSpec::Kind::sphere;
-  spec.radius = radius;
+  ShapeSpec const spec{.radius = radius};
   static auto const ball = std::make_shared<DirichletFlow const>(Surface(make_shape(spec), 16), Side::exterior, 1e-8);
   Radiation radiation({ball}, nullptr, {.viscosity = viscosity, .evaluator = "direct", .accuracy = 1e-12});
   PointArray const source{y}, density{f}, target{x};
