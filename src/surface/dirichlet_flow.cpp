@@ -93,6 +93,12 @@ void DirichletFlow::plan(ConstPoints targets, Targets& result) const {
       result.points_[i] = {ShellTable::locate(psi_of(scale), surface_->to_polar(at.direction)), side_ == Side::interior ? 1.0 : scale};
     }
   });
+  result.set_range();
+}
+
+void DirichletFlow::Targets::set_range() {
+  range_ = {};
+  for (Point const& point : points_) range_.add(point.table.psi);
 }
 
 void DirichletFlow::Targets::within(double scale, Targets& inside, std::vector<std::size_t>& places) const {
@@ -106,6 +112,7 @@ void DirichletFlow::Targets::within(double scale, Targets& inside, std::vector<s
     inside.points_.back().table.psi = psi_of(std::min(1.0, c * c / scale));
     places.push_back(i);
   }
+  inside.set_range();
 }
 
 void DirichletFlow::add_velocity(ConstPoints boundary_velocity, Targets const& targets, Points velocity) const {
@@ -121,7 +128,7 @@ void DirichletFlow::add_interpolated(ShellTable const& table, Evaluation<Real>& 
                                      Targets const& targets, Points velocity) const {
   ASTERFLOW_REQUIRE(targets.size() == velocity.size());
   operator_->shell_modes(boundary_velocity, work.modes);
-  table.fill(work.modes, work.values);
+  table.fill(work.modes, targets.range_, work.values);
   constexpr long chunk = 256;
   auto const n = static_cast<long>(targets.size());
   parallel_for("DirichletFlow::interpolate", (n + chunk - 1) / chunk, [&](long block) {

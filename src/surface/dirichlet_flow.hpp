@@ -38,7 +38,9 @@ class DirichletFlow {
       TablePoint table;
       double factor;  // 1 or, exterior, 1 / rho
     };
+    void set_range();
     std::vector<Point> points_;
+    PsiRange range_;
   };
 
   // Targets on the wrong side are moved onto the surface when they are within 1e-3 of its size, else NumericalError.

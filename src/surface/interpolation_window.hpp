@@ -25,6 +25,8 @@ class InterpolationWindow {
   using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // [n_coefficient, W]
   Coefficients const& coefficients() const { return coefficients_; }
 
+  // The first of the W nodes around x.
+  long first_node(double x) const { return static_cast<long>(std::ceil(x - 0.5 * width_)); }
   // Weights of the W nodes around x, overwritten; returns the first of these nodes. width: W, for the compiler to know.
   long weigh(int width, double x, double* weights) const {
     double const start = x - 0.5 * width, node = std::ceil(start), t = 2.0 * (node - start) - 1.0;

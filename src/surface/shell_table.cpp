@@ -78,19 +78,27 @@ std::size_t ShellTable::memory() const {
   return sizeof(double) * cells * (3 * row_ + 6 * n_mode_);
 }
 
+ShellTable::Rows ShellTable::rows_of(PsiRange range) const {
+  if (range.first > range.last) return {0, 0};
+  long const first = window_.first_node(range.first * n_psi_) + margin_;
+  long const end = window_.first_node(range.last * n_psi_) + margin_ + window_.width() + 1;  // whole vectors reach into the next row
+  return {first, std::min(end, static_cast<long>(up_.psi.rows())) - first};
+}
+
 // Upsampling is a tensor product: theta and psi by small matrices mode by mode, phi by a Fourier transform.
 template <class Real>
-void ShellTable::fill(std::vector<ShellMode<Real>> const& modes, Values<Real>& values) const {
+void ShellTable::fill(std::vector<ShellMode<Real>> const& modes, PsiRange range, Values<Real>& values) const {
   ASTERFLOW_REQUIRE(static_cast<int>(modes.size()) == n_mode_);
   values.velocity.resize(static_cast<std::size_t>(up_.psi.rows() * up_.theta[0].rows()) * 3 * row_ + max_lanes);
   values.meridian.resize(modes.size());
+  Rows const rows = rows_of(range);
   parallel_for("ShellTable::fill_meridian", n_mode_,
-               [&](long m) { fill_meridian(static_cast<int>(m), modes[m], values.meridian[m]); });
-  parallel_for("ShellTable::fill_azimuth", up_.psi.rows(), [&](long i) { fill_azimuth(i, values); });
+               [&](long m) { fill_meridian(static_cast<int>(m), modes[m], rows, values.meridian[m]); });
+  parallel_for("ShellTable::fill_azimuth", rows.count, [&](long i) { fill_azimuth(rows.first + i, values); });
 }
 
 template <class Real>
-void ShellTable::fill_meridian(int m, ShellMode<Real> const& mode, Eigen::MatrixX<Real>& fine) const {
+void ShellTable::fill_meridian(int m, ShellMode<Real> const& mode, Rows wanted, Eigen::MatrixX<Real>& fine) const {
   using Matrix = Eigen::MatrixX<Real>;
   auto const n_psi = up_.psi.rows(), n_theta = up_.theta[0].rows(), n_kept = mode.rows() / (3 * n_ring_);
   fine.resize(n_theta, 6 * n_psi);
@@ -102,7 +110,8 @@ void ShellTable::fill_meridian(int m, ShellMode<Real> const& mode, Eigen::Matrix
       bool const odd = ((c > 0) + m) % 2 != 0;
       rings.noalias() = up<Real>().theta[odd] * coarse;
       rings *= static_cast<Real>(phi_correction_[m]);
-      fine.middleCols((part * 3 + c) * n_psi, n_psi).noalias() = rings * up<Real>().psi.leftCols(n_kept).transpose();
+      fine.middleCols((part * 3 + c) * n_psi + wanted.first, wanted.count).noalias() =
+          rings * up<Real>().psi.block(wanted.first, 0, wanted.count, n_kept).transpose();
     }
 }
 
@@ -166,8 +175,8 @@ void ShellTable::interpolate(Values<Real> const& values, TablePoint const& point
   }
 }
 
-template void ShellTable::fill(std::vector<ShellMode<double>> const&, Values<double>&) const;
-template void ShellTable::fill(std::vector<ShellMode<float>> const&, Values<float>&) const;
+template void ShellTable::fill(std::vector<ShellMode<double>> const&, PsiRange, Values<double>&) const;
+template void ShellTable::fill(std::vector<ShellMode<float>> const&, PsiRange, Values<float>&) const;
 template void ShellTable::interpolate(Values<double> const&, TablePoint const&, double[3]) const;
 template void ShellTable::interpolate(Values<float> const&, TablePoint const&, double[3]) const;
 

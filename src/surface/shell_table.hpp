@@ -11,6 +11,7 @@
 #include "surface/sphere_grid.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 namespace asterflow {
@@ -25,6 +26,12 @@ using ShellMode = Eigen::Matrix<Real, Eigen::Dynamic, 2>;
 struct TablePoint {
   double psi, theta, phi;  // over pi, pi, 2 pi: each in [0, 1]
   double cos_phi, sin_phi;
+};
+
+// Between which shells targets lie: psi over pi. Without targets it is empty, first > last.
+struct PsiRange {
+  double first = 1.0, last = 0.0;
+  void add(double psi) { first = std::min(first, psi), last = std::max(last, psi); }
 };
 
 // Scale of shell k: (1 + cos psi_k) / 2, psi_k = pi k / (n_shell - 1).
@@ -46,8 +53,9 @@ class ShellTable {
     std::vector<Eigen::MatrixX<Real>> meridian;    // work space: [mode] [theta, (part, component, psi)]
     std::size_t memory() const { return sizeof(Real) * velocity.capacity(); }  // bytes
   };
+  // Overwrites what targets within `range` read.
   template <class Real>
-  void fill(std::vector<ShellMode<Real>> const& modes, Values<Real>& values) const;  // overwrites
+  void fill(std::vector<ShellMode<Real>> const& modes, PsiRange range, Values<Real>& values) const;
   // Components along (e_1, e_2, e_3).
   template <class Real>
   void interpolate(Values<Real> const& values, TablePoint const& point, double velocity[3]) const;
@@ -69,8 +77,12 @@ class ShellTable {
                Collection& work) const;
 
  private:
+  struct Rows {  // of the table, along psi
+    long first, count;
+  };
+  Rows rows_of(PsiRange range) const;
   template <class Real>
-  void fill_meridian(int m, ShellMode<Real> const& mode, Eigen::MatrixX<Real>& fine) const;
+  void fill_meridian(int m, ShellMode<Real> const& mode, Rows rows, Eigen::MatrixX<Real>& fine) const;
   template <class Real>
   void fill_azimuth(long i_psi, Values<Real>& values) const;
   void weigh_forces(std::vector<TablePoint> const& points, ConstPoints forces, Collection& work) const;
