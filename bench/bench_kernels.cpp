@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 
 using namespace asterflow;
@@ -156,7 +155,6 @@ int main(int argc, char** argv) {
   app.add_flag("--dry-run", options.dry_run, "few points, once: does the program work?");
   CLI11_PARSE(app, argc, argv);
   if (options.dry_run) options = {600, 1, true};
-  setenv("OMP_PROC_BIND", "false", 0);  // Kokkos would otherwise advise on standard output, where the JSON goes
   ParallelScope const threads;
   run(options);
   return 0;

@@ -17,7 +17,6 @@
 
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <new>
 
 namespace {
@@ -56,7 +55,6 @@ int run(int argc, char** argv) {
   }
   if (!chosen) return report("asterflow: a command is missing (see asterflow --help)", 1);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error like a full disk
-  setenv("OMP_PROC_BIND", "false", 0);  // several runs on one machine must not share a core; also silences Kokkos
   asterflow::ParallelScope const threads;
   chosen();
   return 0;

@@ -3,6 +3,7 @@
 #include <Kokkos_Core.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <mutex>
 
@@ -14,7 +15,10 @@ using HostThreads = Kokkos::DefaultHostExecutionSpace;
 
 }  // namespace
 
-ParallelScope::ParallelScope() { Kokkos::initialize(); }
+ParallelScope::ParallelScope() {
+  setenv("OMP_PROC_BIND", "false", 0);  // several programs on one machine must not share a core; also silences Kokkos
+  Kokkos::initialize();
+}
 ParallelScope::~ParallelScope() { Kokkos::finalize(); }
 
 std::string kokkos_version() {
