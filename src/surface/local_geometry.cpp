@@ -2,6 +2,7 @@
 
 #include "base/polar_directions.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace asterflow {
