@@ -82,53 +82,46 @@ void check_steady_lengths(SceneTables const& tables, Scene const& scene) {
       tables.asters[i].fail("lengths", "\"steady\" needs growing = true and tables [dynamic_instability] and [periphery]");
 }
 
-// Fibers shrink to the minimal length of [dynamic_instability] before they start again.
-void check_slenderness(Table const& table, FiberMaterialSpec const& material, double minimal_length) {
-  if (material.growing && material.radius > 0.25 * minimal_length)
-    table.fail("radius", fmt::format("must be at most a quarter of minimal_length = {:g} um of [dynamic_instability]", minimal_length));
-}
-
-bool has_growing_fibers(Scene const& scene) {
-  auto const grows = [](auto const& one) { return one.material.growing; };
-  return std::any_of(scene.fibers.begin(), scene.fibers.end(), grows) || std::any_of(scene.asters.begin(), scene.asters.end(), grows);
+// check(table, fiber or aster) for all of the scene.
+template <class Check>
+void for_fibers_and_asters(SceneTables const& tables, Scene const& scene, Check const& check) {
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i) check(tables.fibers[i], scene.fibers[i]);
+  for (std::size_t i = 0; i < scene.asters.size(); ++i) check(tables.asters[i], scene.asters[i]);
 }
 
 void check_growth(SceneTables const& tables, Scene const& scene) {
   check_steady_lengths(tables, scene);
-  if (scene.dynamic_instability) {
-    double const minimal_length = scene.dynamic_instability->minimal_length;
-    for (std::size_t i = 0; i < scene.fibers.size(); ++i) check_slenderness(tables.fibers[i], scene.fibers[i].material, minimal_length);
-    for (std::size_t i = 0; i < scene.asters.size(); ++i) check_slenderness(tables.asters[i], scene.asters[i].material, minimal_length);
-    return;
-  }
-  for (std::size_t i = 0; i < scene.fibers.size(); ++i)
-    if (scene.fibers[i].material.growing) tables.fibers[i].fail("growing", "needs a table [dynamic_instability]");
-  for (std::size_t i = 0; i < scene.asters.size(); ++i)
-    if (scene.asters[i].material.growing) tables.asters[i].fail("growing", "needs a table [dynamic_instability]");
+  for_fibers_and_asters(tables, scene, [&](Table const& table, auto const& one) {
+    if (!one.material.growing) return;
+    if (!scene.dynamic_instability) table.fail("growing", "needs a table [dynamic_instability]");
+    double const shortest = scene.dynamic_instability->minimal_length;  // to which they shrink before they start again
+    if (one.material.radius > 0.25 * shortest)
+      table.fail("radius", fmt::format("must be at most a quarter of minimal_length = {:g} um of [dynamic_instability]", shortest));
+  });
 }
 
 void check_nonlocal(SceneTables const& tables, Scene const& scene) {
   if (scene.run.interactions != Interactions::local) return;
-  char const* const words = "needs interactions = \"open\" or \"confined\"; with \"local\" drag is local";
-  for (std::size_t i = 0; i < scene.fibers.size(); ++i)
-    if (scene.fibers[i].material.nonlocal) tables.fibers[i].fail("nonlocal", words);
-  for (std::size_t i = 0; i < scene.asters.size(); ++i)
-    if (scene.asters[i].material.nonlocal) tables.asters[i].fail("nonlocal", words);
+  for_fibers_and_asters(tables, scene, [](Table const& table, auto const& one) {
+    if (one.material.nonlocal)
+      table.fail("nonlocal", "needs interactions = \"open\" or \"confined\"; with \"local\" drag is local");
+  });
 }
 
 void check_cortex_mechanisms(SceneTables const& tables, Scene const& scene) {
+  bool has_growing_fibers = false, has_growing_fibers_in_space = false;
+  for_fibers_and_asters(tables, scene, [&](Table const&, auto const& one) {
+    has_growing_fibers |= one.material.growing;
+    has_growing_fibers_in_space |= one.material.growing && one.body.empty();
+  });
   for (auto const& table : {tables.pushing, tables.cortical_pulling}) {
     if (!table) continue;
     if (!scene.periphery) table->fail("needs a table [periphery]: the cortex");
-    if (!scene.dynamic_instability || !has_growing_fibers(scene)) table->fail("needs a table [dynamic_instability] and fibers with growing = true");
+    if (!scene.dynamic_instability || !has_growing_fibers) table->fail("needs a table [dynamic_instability] and fibers with growing = true");
   }
-  if (scene.pushing && scene.pushing->sliding != PushingSpec::Sliding::free && !scene.pushing->spring_stiffness) {
-    bool held_in_space = false;
-    for (auto const& fiber : scene.fibers) held_in_space |= fiber.material.growing && fiber.body.empty();
-    for (auto const& aster : scene.asters) held_in_space |= aster.material.growing && aster.body.empty();
-    if (held_in_space)
-      tables.pushing->fail("spring_stiffness", "is needed: it follows from the radius of the body only for fibers on a body");
-  }
+  bool const needs_springs = scene.pushing && scene.pushing->sliding != PushingSpec::Sliding::free && !scene.pushing->spring_stiffness;
+  if (needs_springs && has_growing_fibers_in_space)
+    tables.pushing->fail("spring_stiffness", "is needed: it follows from the radius of the body only for fibers on a body");
   if (!scene.cortical_pulling) return;
   check_body_reference(*tables.cortical_pulling, scene, scene.cortical_pulling->dividing_body, "dividing_body");
   PlacedShape const cortex(scene.periphery->shape);
