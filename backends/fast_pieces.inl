@@ -5,24 +5,18 @@
 namespace asterflow {
 namespace {
 
-#if defined(__AVX512F__)
-template <class Real>
-constexpr int near_pieces = lanes<Real>;
-#elif defined(__AVX2__)
-template <class Real>
-constexpr int near_pieces = sizeof(Real) == 4 ? 8 : 1;
-#else
-template <class Real>
-constexpr int near_pieces = 1;
-#endif
-
 // What the accuracies of arithmetic in Real take.
 template <class Real>
-constexpr NearPolynomials near_polynomials = {
-    near_pieces<Real>,
-    near_pieces<Real> == 1 ? (sizeof(Real) == 4 ? 8 : 14) : sizeof(Real) == 8 ? 8 : near_pieces<Real> == 8 ? 4 : 3,
-    near_pieces<Real> == 1 ? 2 : 1,
-    near_pieces<Real> == 1 ? (sizeof(Real) == 4 ? 14 : 24) : sizeof(Real) == 8 ? 13 : near_pieces<Real> == 8 ? 8 : 7};
+constexpr NearPolynomials near_polynomials =
+#if defined(__AVX512F__)
+    sizeof(Real) == 4 ? NearPolynomials{16, 3, 1, 7} : NearPolynomials{8, 8, 1, 13};
+#elif defined(__AVX2__)
+    sizeof(Real) == 4 ? NearPolynomials{8, 4, 1, 8} : NearPolynomials{1, 14, 2, 24};
+#else
+    sizeof(Real) == 4 ? NearPolynomials{1, 8, 2, 14} : NearPolynomials{1, 14, 2, 24};
+#endif
+template <class Real>
+constexpr int near_pieces = near_polynomials<Real>.pieces;
 
 template <class Real>
 struct Place {
