@@ -1,9 +1,9 @@
 #pragma once
 // Steric repulsion: a linear contact force over a short range, for a distance d < d* from the other surface,
-//   fiber     f = -f_0 (1 - d / d*) n   per length, n: from the fiber into the surface
+//   fiber     f = -f_0 (1 - d / d*) n   per length, n: from the fiber into the surface of the cortex or of a body
 //   body      F = -F_0 (1 - d / d*) n   at the point of the body that is closest to the cortex
-// Implicit: a fiber's contacts are found by repeating its local answer until the nodes in contact are those that repel;
-// a body's contact enters its equation of motion as a spring along n.
+// Implicit: fibers as in mechanism/fiber_contacts.hpp; a body's contact with the cortex enters its equation of motion as a
+// spring along n.
 
 #include "base/rigid.hpp"
 #include "mechanism/steric_repulsion_spec.hpp"
@@ -16,7 +16,6 @@
 namespace asterflow {
 
 class Fibers;
-struct NodeLoad;
 
 // Load on a body that moves with q: load - resistance q.
 struct ContactLoad {
@@ -30,20 +29,16 @@ class StericRepulsion {
   StericRepulsion(StericRepulsionSpec const& spec, std::shared_ptr<Shape const> cortex,
                   std::vector<std::shared_ptr<Shape const>> bodies);
 
-  // Loads on the nodes of fibers, after prepare; u [n_node]: incident flow, extrapolated.
-  void hold(Fibers& fibers, ConstPoints u, std::span<BodyMotionMap const> bodies) const;
-  // On a body by the cortex.
+  // Loads on fibers, after prepare; u [n_node]: incident flow, extrapolated.
+  void hold(Fibers& fibers, ConstPoints u, std::span<BodyMotionMap const> bodies);
+  // On a body, by the cortex and, as hold() has found them, by fibers that it does not hold.
   ContactLoad on_body(std::size_t body, BodyMotionMap const& map) const;
 
  private:
-  // Loads at those positions, linear about them, for displacements from `predicted`; false: none.
-  bool node_loads(Fibers const& fibers, std::size_t fiber, ConstPoints predicted, ConstPoints positions,
-                  std::span<BodyMotionMap const> bodies, std::vector<NodeLoad>& loads) const;
-  void hold(Fibers& fibers, std::size_t fiber, ConstPoints u, std::span<BodyMotionMap const> bodies) const;
-
   StericRepulsionSpec spec_;
   std::shared_ptr<Shape const> cortex_;
   std::vector<std::shared_ptr<Shape const>> bodies_;
+  std::vector<Vector6> fiber_loads_;  // [n_body] pN, pN um, of fibers that they do not hold
 };
 
 }  // namespace asterflow

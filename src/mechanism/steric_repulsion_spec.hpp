@@ -11,7 +11,7 @@ struct StericRepulsionSpec {
   double body_force = 100.0;   // F_0, pN, >= 0: of a body in touch
   double exempt_length = 0.5;  // um, >= 0: of a fiber from its minus end, where its body does not repel it
   bool fiber_cortex = true;
-  bool fiber_body = false;     // a fiber and the body that holds it
+  bool fiber_body = false;     // fibers and bodies, those that hold them and others
   bool body_cortex = true;
 };
 

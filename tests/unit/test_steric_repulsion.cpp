@@ -145,6 +145,81 @@ TEST(StericRepulsion, body_holds_off_its_own_fiber) {
   EXPECT_GT(turned_in(true), -0.02);
 }
 
+TEST(StericRepulsion, plus_end_rests_on_a_body_that_does_not_hold_it) {
+  auto const simulation = simulated(R"(
+    [fluid]
+    viscosity = 0.6
+    [[body]]
+    shape = "sphere"
+    radius = 1.5
+    position = [0.4, 0.3, 0.0]
+    motion = "prescribed"
+    [[fiber]]
+    position = [6.0, 0.3, 0.0]
+    direction = [-1.0, 0.0, 0.0]
+    length = 3.0
+    force_density = [-1.0, 0.0, 0.0]
+    [steric_repulsion]
+    range = 0.1
+    fiber_body = true
+    [run]
+    interactions = "local"
+    accuracy = 1e-4
+  )", 4.0);
+  EXPECT_LT(norm(simulation->fibers().ends(0).contact + simulation->fibers().ends(0).plus_end - Vec3d{3, 0, 0}), 1e-3);
+  double const gap = plus_end(simulation->fibers().shape(0)).x - 1.9;
+  EXPECT_GT(gap, 0.06);  // the plus end alone would carry it at 0.1 (1 - 3 / 10)
+  EXPECT_LT(gap, 0.08);
+}
+
+TEST(StericRepulsion, body_feels_what_it_does_to_a_fiber_of_others) {
+  Simulation simulation(parse_scene(R"(
+    [fluid]
+    viscosity = 0.6
+    [[body]]
+    shape = "ellipsoid"
+    semi_axes = [2.0, 1.6, 1.5]
+    position = [0.5, 0.2, 0.0]
+    force = [1.0, 0.0, 0.0]
+    [[fiber]]
+    position = [-1.0, 0.3, 1.8]
+    direction = [1.0, 0.0, 0.1]
+    length = 3.0
+    force_density = [0.0, 0.3, -1.0]
+    [[fiber]]
+    position = [5.7, 0.2, 0.5]
+    direction = [-1.0, 0.0, 0.0]
+    length = 3.0
+    force_density = [-1.0, 0.0, 0.0]
+    [steric_repulsion]
+    range = 0.1
+    fiber_body = true
+    [run]
+    interactions = "local"
+    accuracy = 1e-3
+  )", "test.toml"));
+  Fibers const& fibers = simulation.fibers();
+  double largest_side = 0.0, largest_tip = 0.0;
+  while (simulation.time() < 2.0) {
+    simulation.step(2.0);
+    RigidBody const& body = simulation.bodies()[0];
+    RigidPose const& pose = body.motion_map().predicted;
+    Vector6 sum = simulation.resistance_alone(0, pose) * body.motion() - body.external_load();
+    for (std::size_t i = 0; i < 2; ++i) {
+      EndForces const& ends = fibers.ends(i);
+      Centreline const& shape = fibers.predicted_shape(i);
+      sum.head<3>() += to_eigen(ends.contact + ends.plus_end);
+      sum.tail<3>() += to_eigen(ends.contact_torque + cross(shape.minus_end - pose.position, ends.contact) +
+                                cross(plus_end(shape) - pose.position, ends.plus_end));
+    }
+    EXPECT_LT(sum.norm(), 1e-11);
+    largest_side = std::max(largest_side, norm(fibers.ends(0).contact));
+    largest_tip = std::max(largest_tip, norm(fibers.ends(1).plus_end));
+  }
+  EXPECT_GT(largest_side, 0.5);
+  EXPECT_GT(largest_tip, 0.5);
+}
+
 TEST(StericRepulsion, of_wrong_sign_is_refused) {
   std::string text = pressed_scene("");
   text.replace(text.find("range = 0.1"), 11, "range = -0.1");

@@ -1,0 +1,74 @@
+#pragma once
+// What steric repulsion does to one fiber in a step: at its hydrodynamic nodes and, as one um of it, at a plus end that nothing
+// else holds. The nodes in contact are found by repeating the fiber's local answer until those that repel are those that
+// touch. The force is then linear in the step where the cortex or the fiber's own body exerts it; other bodies exert
+// the force of that local answer, and feel the opposite.
+
+#include "base/rigid.hpp"
+#include "fiber/fibers.hpp"
+#include "mechanism/steric_repulsion_spec.hpp"
+#include "surface/shapes.hpp"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace asterflow {
+
+// What can touch a fiber.
+struct FiberSurroundings {
+  StericRepulsionSpec const& spec;
+  Shape const* cortex;  // may be null
+  std::span<std::shared_ptr<Shape const> const> bodies;
+  std::span<BodyMotionMap const> motions;  // of the bodies
+};
+
+// Load on a body, about its centre.
+struct BodyReaction {
+  std::size_t body;
+  Vector6 load;  // pN, pN um
+};
+
+class FiberContacts {
+ public:
+  FiberContacts(FiberSurroundings const& around, Fibers& fibers, std::size_t fiber);
+
+  // Plans the loads of the fiber, after prepare; u [n_node of all fibers]: incident flow, extrapolated.
+  // Returns what bodies feel that do not hold the fiber.
+  std::vector<BodyReaction> hold(ConstPoints u);
+
+ private:
+  struct Wall {
+    int body;         // -1: the cortex
+    double distance;  // um, from the fiber
+    Vec3d away;       // unit vector along which the distance grows
+  };
+  struct Push {  // force - stiffness dX
+    Vec3d force;        // pN/um at a node, pN at the plus end
+    Matrix3 stiffness;  // the same per um
+  };
+  struct Touch : Push {
+    std::size_t body, node;  // at the plus end: no node
+  };
+
+  template <class Function>
+  void for_walls(Vec3d position, double arc_length, Function&& function) const;
+  bool find_wall(int body, Vec3d position, Wall& wall) const;
+  Push push(double strength, Wall const& wall) const;
+  void hold_plus_end(ConstPoints u);
+  bool find_nodes(ConstPoints positions);
+  void hold_nodes(ConstPoints u);
+  std::vector<BodyReaction> settle(ConstPoints u);
+
+  FiberSurroundings const& around_;
+  Fibers& fibers_;
+  std::size_t fiber_, first_;  // its first node
+  int holder_;                 // body that holds it, -1: none
+  Vector6 motion_;             // of that body
+  PointArray predicted_;       // [n_node] um
+  PointArray positions_;       // [n_node] um, local answer
+  std::vector<NodeLoad> loads_;
+  std::vector<Touch> plus_end_touches_, node_touches_;  // with bodies that do not hold the fiber
+};
+
+}  // namespace asterflow
