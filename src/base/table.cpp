@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <toml++/toml.h>
@@ -42,13 +43,36 @@ toml::table parse_value(std::string_view value) {
   }
 }
 
+// A part of the path "table.key": in quotes it may hold dots, and is a name even where it looks like a position.
+struct Step {
+  std::string word;
+  bool is_quoted = false;
+
+  bool is_position() const {
+    return !is_quoted && std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
+  }
+};
+
+// Takes the first step, and the '.' or '=' that ends it, off the path. Nothing where there is none.
+std::optional<Step> take_step(std::string_view& path, char& ended_by) {
+  bool const is_quoted = !path.empty() && (path[0] == '"' || path[0] == '\'');
+  std::size_t const begin = is_quoted ? 1 : 0;
+  std::size_t const end = is_quoted ? path.find(path[0], 1) : path.find_first_of(".=");
+  std::size_t const next = end + begin;  // behind a closing quote
+  if (end == path.npos || end == begin || next >= path.size() || (path[next] != '.' && path[next] != '=')) return std::nullopt;
+  Step const step{std::string(path.substr(begin, end - begin)), is_quoted};
+  ended_by = path[next];
+  path.remove_prefix(next + 1);
+  return step;
+}
+
 // The element of [[key]] that a position or a name means; a position one past the end appends a table.
-toml::node& array_element(Source const& source, std::string_view whole, toml::array& array, std::string_view step) {
-  std::size_t position = 0;
-  auto const [end, status] = std::from_chars(step.data(), step.data() + step.size(), position);
-  if (status == std::errc{} && end == step.data() + step.size()) {
-    if (position < array.size()) return array[position];
-    if (position > array.size())
+toml::node& array_element(Source const& source, std::string_view whole, toml::array& array, Step const& step) {
+  if (step.is_position()) {
+    std::size_t position = 0;
+    auto const [end, status] = std::from_chars(step.word.data(), step.word.data() + step.word.size(), position);
+    if (status == std::errc{} && position < array.size()) return array[position];
+    if (status != std::errc{} || position > array.size())
       fail_override(source, whole, fmt::format("there are only {} (positions count from 0)", array.size()));
     array.push_back(toml::table{});
     return array.back();
@@ -57,47 +81,42 @@ toml::node& array_element(Source const& source, std::string_view whole, toml::ar
   for (auto& element : array)
     if (auto const* table = element.as_table())
       if (auto const name = (*table)["name"].value<std::string>()) {
-        if (*name == step) return element;
+        if (*name == step.word) return element;
         names.push_back(*name);
       }
-  fail_override(source, whole, fmt::format("nothing is named {} {}", in_quotes(step), known_names(step, names)));
-}
-
-bool is_position(std::string_view step) {
-  return !step.empty() && std::all_of(step.begin(), step.end(), [](char c) { return c >= '0' && c <= '9'; });
+  fail_override(source, whole, fmt::format("nothing is named {} {}", in_quotes(step.word), known_names(step.word, names)));
 }
 
 // Applies one "table.key=value"; tables and keys that are missing are created.
 void apply_override(Source& source, std::string const& whole) {
-  auto const equals = whole.find('=');
-  if (equals == std::string::npos || equals == 0) fail_override(source, whole, "must read table.key=value");
   if (auto const end = whole.find('\n'); end != std::string::npos)  // trajectories keep one override a line
     fail_override(source, whole.substr(0, end) + " ...", "must be one line");
-  std::vector<std::string> steps;
-  std::istringstream path(whole.substr(0, equals));
-  for (std::string step; std::getline(path, step, '.');) {
-    if (step.empty()) fail_override(source, whole, "must read table.key=value");
-    steps.push_back(step);
+  std::vector<Step> steps;
+  std::string_view rest = whole;
+  for (char ended_by = '.'; ended_by != '=';) {
+    auto const step = take_step(rest, ended_by);
+    if (!step) fail_override(source, whole, "must read table.key=value");
+    steps.push_back(*step);
   }
-  toml::table value = parse_value(std::string_view(whole).substr(equals + 1));
+  toml::table value = parse_value(rest);
 
   toml::node* node = &source.root;
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
     if (auto* table = node->as_table()) {
-      if (!table->contains(steps[i])) {
-        if (is_position(steps[i + 1])) table->insert(steps[i], toml::array{});
-        else table->insert(steps[i], toml::table{});
+      if (!table->contains(steps[i].word)) {
+        if (steps[i + 1].is_position()) table->insert(steps[i].word, toml::array{});
+        else table->insert(steps[i].word, toml::table{});
       }
-      node = table->get(steps[i]);
+      node = table->get(steps[i].word);
     } else if (auto* array = node->as_array()) {
       node = &array_element(source, whole, *array, steps[i]);
     } else {
-      fail_override(source, whole, fmt::format("{} is a value, not a table", in_quotes(steps[i - 1])));
+      fail_override(source, whole, fmt::format("{} is a value, not a table", in_quotes(steps[i - 1].word)));
     }
   }
   auto* table = node->as_table();
   if (!table) fail_override(source, whole, "the last part must be a key of a table");
-  table->insert_or_assign(steps.back(), std::move(*value.get("value")));
+  table->insert_or_assign(steps.back().word, std::move(*value.get("value")));
 }
 
 }  // namespace

@@ -112,8 +112,8 @@ class Table {
 };
 
 // The scene in a text, after the overrides "table.key=value". `body.0.force=[1,0,0]` and `body.pnc.force=[1,0,0]`
-// reach into [[body]] by position (from 0) or name; missing tables and keys are created; a value that is not TOML
-// is taken as a word. `file` names the text in messages.
+// reach into [[body]] by position (from 0) or name, in quotes where it holds a dot or looks like a position; missing tables
+// and keys are created; a value that is not TOML is taken as a word. `file` names the text in messages.
 Table parse_table(std::string text, std::string file, std::vector<std::string> const& overrides = {});
 
 // The same from a file.

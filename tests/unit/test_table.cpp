@@ -2,6 +2,7 @@
 #include "base/table.hpp"
 
 #include <cstdio>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 using namespace asterflow;
@@ -90,6 +91,21 @@ TEST(Table, Refuses_lists_of_the_wrong_length) {
 TEST(Table, Overrides_reach_elements_by_position_and_by_name) {
   EXPECT_EQ(read_second_ball(two_balls, {"ball.1.radius=7"}).radius, 7.0);
   EXPECT_EQ(read_second_ball(two_balls, {"ball.b.radius=8", "ball.b.position=[1,2,3]"}).position.z, 3.0);
+}
+
+TEST(Table, Overrides_reach_names_with_dots_in_quotes) {
+  std::string const named = "[[ball]]\nname = 'a'\nradius = 2\n[[ball]]\nname = '{}'\nradius = 3\n";
+  for (std::string const name : {"left.1", "a=b", "0", "my ball"}) {
+    std::string const text = fmt::format(fmt::runtime(named), name);
+    EXPECT_EQ(read_second_ball(text, {fmt::format("ball.\"{}\".radius=7", name)}).radius, 7.0) << name;
+    EXPECT_EQ(read_second_ball(text, {fmt::format("ball.'{}'.'radius'=7", name)}).radius, 7.0) << name;
+  }
+}
+
+TEST(Table, Overrides_without_a_path_are_refused) {
+  for (std::string const bad : {"", "=1", "radius", ".radius=1", "ball..radius=1", "ball.\"b.radius=1", "ball.\"b\"radius=1", "ball.\"\".radius=1", "ball.'b'"})
+    EXPECT_EQ(message_of([&] { read_second_ball(two_balls, {bad}); }),
+              fmt::format("scene.toml: --set {}: must read table.key=value", bad));
 }
 
 TEST(Table, Overrides_create_missing_tables_and_keys) {
