@@ -16,11 +16,15 @@ Scene read_all(Table root) {
 
   auto const periphery = root.find_table("periphery");
   auto const background = root.find_table("background");
-  auto const instability = root.find_table("dynamic_instability");
-  auto const cytoplasmic_pulling = root.find_table("cytoplasmic_pulling");
-  auto const steric_repulsion = root.find_table("steric_repulsion");
-  SceneTables const tables{root.tables("body"), root.tables("fiber"), root.tables("aster"), root.table("drag"), root.find_table("pushing"),
-                           root.find_table("cortical_pulling")};
+  SceneTables const tables{.bodies = root.tables("body"),
+                           .fibers = root.tables("fiber"),
+                           .asters = root.tables("aster"),
+                           .drag = root.table("drag"),
+                           .dynamic_instability = root.find_table("dynamic_instability"),
+                           .cytoplasmic_pulling = root.find_table("cytoplasmic_pulling"),
+                           .pushing = root.find_table("pushing"),
+                           .cortical_pulling = root.find_table("cortical_pulling"),
+                           .steric_repulsion = root.find_table("steric_repulsion")};
   Table const fluid = root.table("fluid"), run = root.table("run"), output = root.table("output");
   root.finish();
 
@@ -30,11 +34,11 @@ Scene read_all(Table root) {
   scene.drag = read_drag(tables.drag);
   if (periphery) scene.periphery = read_periphery(*periphery);
   if (background) scene.background = read_background(*background);
-  if (instability) scene.dynamic_instability = read_dynamic_instability(*instability);
-  if (cytoplasmic_pulling) scene.cytoplasmic_pulling = read_cytoplasmic_pulling(*cytoplasmic_pulling);
-  if (steric_repulsion) scene.steric_repulsion = read_steric_repulsion(*steric_repulsion);
+  if (tables.dynamic_instability) scene.dynamic_instability = read_dynamic_instability(*tables.dynamic_instability);
+  if (tables.cytoplasmic_pulling) scene.cytoplasmic_pulling = read_cytoplasmic_pulling(*tables.cytoplasmic_pulling);
   if (tables.pushing) scene.pushing = read_pushing(*tables.pushing);
   if (tables.cortical_pulling) scene.cortical_pulling = read_cortical_pulling(*tables.cortical_pulling);
+  if (tables.steric_repulsion) scene.steric_repulsion = read_steric_repulsion(*tables.steric_repulsion);
   for (auto const& body : tables.bodies) scene.bodies.push_back(read_body(body, scene.bodies.size() + 1));
   for (auto const& fiber : tables.fibers) scene.fibers.push_back(read_fiber(fiber));
   for (auto const& aster : tables.asters) scene.asters.push_back(read_aster(aster));
@@ -44,7 +48,7 @@ Scene read_all(Table root) {
   check_names(tables, scene);
   check_growth(tables, scene);
   check_nonlocal(tables, scene);
-  check_cortex_mechanisms(tables, scene);
+  check_mechanisms(tables, scene);
   check_places(tables, scene);
   return scene;
 }

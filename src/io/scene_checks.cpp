@@ -108,20 +108,25 @@ void check_nonlocal(SceneTables const& tables, Scene const& scene) {
   });
 }
 
-void check_cortex_mechanisms(SceneTables const& tables, Scene const& scene) {
-  bool has_growing_fibers = false, has_growing_fibers_in_space = false;
-  for_fibers_and_asters(tables, scene, [&](Table const&, auto const& one) {
-    has_growing_fibers |= one.material.growing;
-    has_growing_fibers_in_space |= one.material.growing && one.body.empty();
-  });
+// What plus ends do at the cortex needs a cortex and plus ends that grow.
+void check_cortex_mechanisms(SceneTables const& tables, Scene const& scene, bool has_growing_fibers) {
   for (auto const& table : {tables.pushing, tables.cortical_pulling}) {
     if (!table) continue;
     if (!scene.periphery) table->fail("needs a table [periphery]: the cortex");
     if (!scene.dynamic_instability || !has_growing_fibers) table->fail("needs a table [dynamic_instability] and fibers with growing = true");
   }
-  bool const needs_springs = scene.pushing && scene.pushing->sliding != PushingSpec::Sliding::free && !scene.pushing->spring_stiffness;
-  if (needs_springs && has_growing_fibers_in_space)
-    tables.pushing->fail("spring_stiffness", "is needed: it follows from the radius of the body only for fibers on a body");
+}
+
+// Springs follow from the radius of the body that holds a fiber.
+void check_springs(SceneTables const& tables, Scene const& scene) {
+  if (!scene.pushing || scene.pushing->sliding == PushingSpec::Sliding::free || scene.pushing->spring_stiffness) return;
+  for_fibers_and_asters(tables, scene, [&](Table const&, auto const& one) {
+    if (one.material.growing && one.body.empty())
+      tables.pushing->fail("spring_stiffness", "is needed: it follows from the radius of the body only for fibers on a body");
+  });
+}
+
+void check_sites(SceneTables const& tables, Scene const& scene) {
   if (!scene.cortical_pulling) return;
   check_body_reference(*tables.cortical_pulling, scene, scene.cortical_pulling->dividing_body, "dividing_body");
   PlacedShape const cortex(scene.periphery->shape);
@@ -130,6 +135,52 @@ void check_cortex_mechanisms(SceneTables const& tables, Scene const& scene) {
       tables.cortical_pulling->fail(
           "positions", fmt::format("[{:g}, {:g}, {:g}] um lies {:.3g} um {} the cortex; sites lie on it (within 0.1 um)", x.x,
                                    x.y, x.z, std::abs(d), d > 0 ? "outside" : "inside"));
+}
+
+void check_repelled_objects(SceneTables const& tables, Scene const& scene) {
+  if (!scene.steric_repulsion) return;
+  bool has_fibers = false, has_fibers_on_bodies = false;
+  for_fibers_and_asters(tables, scene, [&](Table const&, auto const& one) {
+    has_fibers = true;
+    has_fibers_on_bodies |= !one.body.empty();
+  });
+  auto const& repulsion = *scene.steric_repulsion;
+  bool const acts = (repulsion.fiber_cortex && scene.periphery && has_fibers) || (repulsion.fiber_body && has_fibers_on_bodies) ||
+                    (repulsion.body_cortex && scene.periphery && !scene.bodies.empty());
+  if (!acts)
+    tables.steric_repulsion->fail(
+        "has nothing to repel: fiber_cortex needs fibers and a [periphery], fiber_body fibers on a [[body]], body_cortex a "
+        "[[body]] and a [periphery]");
+}
+
+// What happens near the cortex happens within a part of the cell.
+void check_ranges(SceneTables const& tables, Scene const& scene) {
+  if (!scene.periphery) return;
+  double const cell = PlacedShape(scene.periphery->shape).least_radius();
+  if (scene.steric_repulsion && scene.steric_repulsion->range >= cell)
+    tables.steric_repulsion->fail("range", fmt::format("must be less than {:g} um, the least radius of the periphery", cell));
+  if (!scene.dynamic_instability) return;
+  double const margin = scene.dynamic_instability->cortex_margin;
+  if (margin >= cell)
+    tables.dynamic_instability->fail("cortex_margin",
+                                     fmt::format("must be less than {:g} um, the least radius of the periphery", cell));
+  if (scene.pushing && scene.pushing->range >= cell - margin)
+    tables.pushing->fail("range", fmt::format("must be less than {:g} um, the least radius of the periphery without cortex_margin",
+                                              cell - margin));
+}
+
+void check_mechanisms(SceneTables const& tables, Scene const& scene) {
+  bool has_fibers = false, has_growing_fibers = false;
+  for_fibers_and_asters(tables, scene, [&](Table const&, auto const& one) {
+    has_fibers = true;
+    has_growing_fibers |= one.material.growing;
+  });
+  check_cortex_mechanisms(tables, scene, has_growing_fibers);
+  if (scene.cytoplasmic_pulling && !has_fibers) tables.cytoplasmic_pulling->fail("needs a [[fiber]] or an [[aster]] to pull");
+  check_springs(tables, scene);
+  check_sites(tables, scene);
+  check_repelled_objects(tables, scene);
+  check_ranges(tables, scene);
 }
 
 void check_places(SceneTables const& tables, Scene const& scene) {

@@ -12,15 +12,15 @@ namespace asterflow {
 struct SceneTables {
   std::vector<Table> bodies, fibers, asters;
   Table drag;
-  std::optional<Table> pushing, cortical_pulling;
+  std::optional<Table> dynamic_instability, cytoplasmic_pulling, pushing, cortical_pulling, steric_repulsion;
 };
 
 void check_names(SceneTables const& tables, Scene const& scene);
 void check_growth(SceneTables const& tables, Scene const& scene);
 // A fiber's own flow is exchanged with the flows of all others.
 void check_nonlocal(SceneTables const& tables, Scene const& scene);
-// What plus ends do at the cortex needs a cortex and plus ends that grow.
-void check_cortex_mechanisms(SceneTables const& tables, Scene const& scene);
+// A mechanism needs something to act on, and a cell that is larger than its range.
+void check_mechanisms(SceneTables const& tables, Scene const& scene);
 void check_places(SceneTables const& tables, Scene const& scene);
 
 }  // namespace asterflow

@@ -22,6 +22,7 @@ class PlacedShape {
   Vec3d to_laboratory(Vec3d x) const;             // from the frame of the shape
   Vec3d turn_to_laboratory(Vec3d direction) const;
   double size() const { return shape_->size(); }  // um, largest distance of the surface from the centre
+  double least_radius() const { return shape_->size() / shape_->aspect_ratio(); }  // um, least distance
 
  private:
   Vec3d to_body(Vec3d x) const;

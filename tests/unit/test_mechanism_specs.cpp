@@ -54,6 +54,26 @@ TEST(MechanismSpecs, models_of_growing_fibers_need_one) {
     EXPECT_NE(refusal(still + table).find("fibers with growing = true"), std::string::npos) << refusal(still + table);
 }
 
+TEST(MechanismSpecs, mechanisms_without_anything_to_act_on_are_refused) {
+  std::string const ball = "[[body]]\nshape = \"sphere\"\nradius = 2\n", periphery = "[periphery]\nshape = \"sphere\"\nradius = 6\n",
+                    fiber = "[[fiber]]\nposition = [2, 0, 0]\nlength = 1\n";
+  EXPECT_NE(refusal(ball + "[cytoplasmic_pulling]\n").find("[cytoplasmic_pulling]: needs a [[fiber]]"), std::string::npos);
+  EXPECT_EQ(refusal(fiber + "[cytoplasmic_pulling]\n"), "accepted");
+  std::string const repulsion = "[steric_repulsion]\n", nothing = "[steric_repulsion]: has nothing to repel";
+  EXPECT_NE(refusal(ball + fiber + repulsion).find(nothing), std::string::npos);
+  EXPECT_NE(refusal(periphery + repulsion).find(nothing), std::string::npos);
+  EXPECT_NE(refusal(periphery + ball + repulsion + "body_cortex = false\nfiber_body = true\n").find(nothing), std::string::npos);
+  EXPECT_EQ(refusal(periphery + ball + repulsion), "accepted");
+  EXPECT_EQ(refusal(periphery + fiber + repulsion), "accepted");
+  EXPECT_EQ(refusal(ball + fiber + "body = \"body1\"\nminus_end = \"hinged\"\n" + repulsion + "fiber_body = true\n"), "accepted");
+}
+
+TEST(MechanismSpecs, ranges_wider_than_the_cell_are_refused) {
+  expect_refusal("cortex_margin = 6\n", "[dynamic_instability]: cortex_margin = 6: must be less than 6 um, the least radius");
+  expect_refusal("cortex_margin = 1\n[pushing]\nsliding = \"none\"\nrange = 5\n", "[pushing]: range = 5: must be less than 5 um");
+  expect_refusal("[steric_repulsion]\nrange = 7\n", "[steric_repulsion]: range = 7: must be less than 6 um");
+}
+
 TEST(MechanismSpecs, growing_fibers_are_slender_at_every_length) {
   expect_refusal("minimal_length = 0.04\n", "radius: must be at most a quarter of minimal_length = 0.04 um");
   EXPECT_EQ(refusal(cell + "minimal_length = 0.05\n"), "accepted");
