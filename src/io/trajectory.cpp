@@ -85,19 +85,22 @@ void write_frame(ArrayFile& file, Frame const& frame) {
   file.append("time", frame.time, "s");
 }
 
-void make_empty_folder(fs::path const& folder) {
+void make_folder(fs::path const& folder) {
   std::error_code error;
-  if (fs::exists(current(folder), error))
-    throw SceneError(fmt::format("{}: is there already; choose another folder with -o, or go on with: asterflow resume {}",
-                                 current(folder).string(), folder.string()));
-  fs::remove(next(folder), error);  // a run that was killed before its first state
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw SceneError(folder.string() + ": is a file; choose another output folder with -o");
   fs::create_directories(folder, error);
-  if (!error && !fs::is_empty(folder, error) && !error)
-    throw SceneError(folder.string() + ": is not empty; choose another output folder with -o");
   if (error) throw SceneError(fmt::format("{}: cannot be used for output: {}; choose another folder with -o",
                                           folder.string(), error.message()));
+}
+
+// Call with the folder locked: before its first state another run has only its second copy there.
+void refuse_used_folder(fs::path const& folder) {
+  if (fs::exists(current(folder)))
+    throw SceneError(fmt::format("{}: is there already; choose another folder with -o, or go on with: asterflow resume {}",
+                                 current(folder).string(), folder.string()));
+  fs::remove(next(folder));  // of a run that was killed before its first state
+  if (!fs::is_empty(folder)) throw SceneError(folder.string() + ": is not empty; choose another output folder with -o");
 }
 
 }  // namespace
@@ -128,8 +131,9 @@ TrajectoryWriter::~TrajectoryWriter() {
 }
 
 TrajectoryWriter TrajectoryWriter::create(fs::path folder, TrajectoryHeader const& header) {
-  make_empty_folder(folder);
+  make_folder(folder);
   TrajectoryWriter writer(std::move(folder));
+  refuse_used_folder(writer.folder_);
   writer.overrides_ = text_of(header.overrides);
   write_header(next(writer.folder_), header);
   synchronise(next(writer.folder_));

@@ -1,5 +1,6 @@
 """The trajectory survives a kill at any instant and a full disk."""
 
+import fcntl
 import os
 import random
 import resource
@@ -100,6 +101,18 @@ class Trajectory(CommandTest):
         process.communicate()
         self.assertEqual(code, 1)
         self.assertIn("another asterflow", errors)
+
+    def test_leaves_alone_a_run_that_has_no_state_yet(self):
+        self.run_folder.mkdir()
+        second_copy = self.run_folder / "trajectory-next.h5"
+        second_copy.write_text("being written")
+        folder = os.open(self.run_folder, os.O_RDONLY)
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        code, errors = self.finish(5)
+        os.close(folder)
+        self.assertEqual(code, 1)
+        self.assertIn("another asterflow", errors)
+        self.assertEqual(second_copy.read_text(), "being written")
 
     def test_refuses_a_folder_with_other_things_in_it(self):
         self.run_folder.mkdir()
