@@ -172,7 +172,7 @@ void add_sum_command(CLI::App& program, Action& chosen) {
       "\nMake points.h5 with Python:\n"
       "  import h5py, numpy\n"
       "  with h5py.File('points.h5', 'w') as f:\n"
-      "      f['sources'] = numpy.random.rand(20000, 3); f['strengths'] = numpy.random.randn(20000, 3)\n"));
+      "      for name in ('sources', 'strengths', 'normals'): f[name] = numpy.random.randn(20000, 3)\n"));
   command->callback([options, &chosen] { chosen = [options] { sum(*options); }; });
 }
 
