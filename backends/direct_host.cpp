@@ -1,12 +1,12 @@
 // Direct sums on host threads with the explicit-SIMD pair loops of one instruction set.
 
 #include "backends/backend.hpp"
+#include "backends/direct_any_reach.hpp"
 #include "backends/packed_sum.hpp"
 #include "base/error.hpp"
 #include "kernels/list.hpp"
 
 #include <optional>
-#include <string>
 
 namespace asterflow {
 namespace {
@@ -56,7 +56,6 @@ class DirectHost final : public Evaluator {
  public:
   DirectHost(InstructionSet instructions, std::string_view name, double accuracy)
       : instructions_(instructions),
-        name_(name),
         kernel_(traits_of(name)),
         accuracy_(accuracy),
         in_double_(kernel_, loops_for<double>(instructions, kernel_.index, accuracy)) {
@@ -69,8 +68,6 @@ class DirectHost final : public Evaluator {
     Box const box = bounding_box(sources, targets);
     n_source_ = sources.size();
     n_target_ = targets.size();
-    plain_ = dwarfs_sources(box, sources, targets) ? make_reference(name_, {}) : nullptr;
-    if (plain_) return plain_->set_points(sources, targets, normals);
     uses_float_ = in_float_ && !may_cancel() && !has_close_pair(sources, targets, closest_in_float * box.extent());
     if (uses_float_)
       in_float_->set_points(sources, targets, normals, frame_of<float>(box));
@@ -80,7 +77,6 @@ class DirectHost final : public Evaluator {
 
   void add_velocity(ConstPoints strengths, Points velocity) override {
     ASTERFLOW_REQUIRE(strengths.size() == n_source_ && velocity.size() == n_target_);
-    if (plain_) return plain_->add_velocity(strengths, velocity);
     if (uses_float_)
       in_float_->add_velocity(strengths, velocity);
     else
@@ -89,7 +85,6 @@ class DirectHost final : public Evaluator {
 
   void add_gradient(ConstPoints strengths, Points gradient) override {
     ASTERFLOW_REQUIRE(strengths.size() == n_source_ && gradient.size() == 3 * n_target_);
-    if (plain_) return plain_->add_gradient(strengths, gradient);
     if (uses_float_)
       in_float_->add_gradient(strengths, gradient);
     else
@@ -110,12 +105,10 @@ class DirectHost final : public Evaluator {
   }
 
   InstructionSet instructions_;
-  std::string name_;
   KernelTraits kernel_;
   double accuracy_;
   PackedSum<double> in_double_;
   std::optional<PackedSum<float>> in_float_;
-  std::unique_ptr<Evaluator> plain_;  // where no scale suits all distances
   bool uses_float_ = false;
   std::size_t n_source_ = 0, n_target_ = 0;
 };
@@ -126,11 +119,11 @@ double pair_accuracy(EvaluatorOptions const& options) { return options.gradient 
 }  // namespace
 
 std::unique_ptr<Evaluator> make_direct_avx2(std::string_view kernel, EvaluatorOptions const& options) {
-  return std::make_unique<DirectHost>(InstructionSet::avx2, kernel, pair_accuracy(options));
+  return for_any_reach(kernel, std::make_unique<DirectHost>(InstructionSet::avx2, kernel, pair_accuracy(options)));
 }
 
 std::unique_ptr<Evaluator> make_direct_avx512(std::string_view kernel, EvaluatorOptions const& options) {
-  return std::make_unique<DirectHost>(InstructionSet::avx512, kernel, pair_accuracy(options));
+  return for_any_reach(kernel, std::make_unique<DirectHost>(InstructionSet::avx512, kernel, pair_accuracy(options)));
 }
 
 PairArithmetic pair_arithmetic(std::string_view instructions, std::string_view kernel, double accuracy) {

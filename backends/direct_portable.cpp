@@ -4,6 +4,7 @@
 
 #include "backends/backend.hpp"
 #include "backends/default_space.hpp"
+#include "backends/direct_any_reach.hpp"
 #include "backends/frame.hpp"
 #include "base/error.hpp"
 #include "kernels/dual.hpp"
@@ -192,8 +193,6 @@ class DirectPortable final : public Evaluator {
     Box const box = bounding_box(sources, targets);
     n_source_ = sources.size();
     n_target_ = targets.size();
-    plain_ = dwarfs_sources(box, sources, targets) ? make_reference(Kernel::name, {}) : nullptr;
-    if (plain_) return plain_->set_points(sources, targets, normals);
     uses_float_ = may_use_float_ && !has_close_pair(sources, targets, closest_in_float * box.extent());
     if (uses_float_)
       in_float_.set_points(sources, targets, normals, frame_of<float>(box));
@@ -203,7 +202,6 @@ class DirectPortable final : public Evaluator {
 
   void add_velocity(ConstPoints strengths, Points velocity) override {
     ASTERFLOW_REQUIRE(strengths.size() == n_source_ && velocity.size() == n_target_);
-    if (plain_) return plain_->add_velocity(strengths, velocity);
     if (uses_float_)
       in_float_.add_velocity(strengths, velocity);
     else
@@ -212,7 +210,6 @@ class DirectPortable final : public Evaluator {
 
   void add_gradient(ConstPoints strengths, Points gradient) override {
     ASTERFLOW_REQUIRE(strengths.size() == n_source_ && gradient.size() == 3 * n_target_);
-    if (plain_) return plain_->add_gradient(strengths, gradient);
     if (uses_float_)
       in_float_.add_gradient(strengths, gradient);
     else
@@ -224,7 +221,6 @@ class DirectPortable final : public Evaluator {
 
  private:
   bool may_use_float_, uses_float_ = false;
-  std::unique_ptr<Evaluator> plain_;  // where no scale suits all distances
   std::size_t n_source_ = 0, n_target_ = 0;
   PortableSum<Kernel, float> in_float_;
   PortableSum<Kernel, double> in_double_;
@@ -235,7 +231,7 @@ class DirectPortable final : public Evaluator {
 std::unique_ptr<Evaluator> make_direct_portable(std::string_view kernel, EvaluatorOptions const& options) {
   std::unique_ptr<Evaluator> evaluator;
   with_kernel(kernel, [&](auto k) { evaluator = std::make_unique<DirectPortable<decltype(k)>>(options); });
-  return evaluator;
+  return for_any_reach(kernel, std::move(evaluator));
 }
 
 }  // namespace asterflow
