@@ -24,11 +24,10 @@ struct Costs {
 // lists_once: pairs serve both directions (fast_near_lists.hpp), so that one direction costs less.
 Costs costs(FastParameters const& p, int components, bool lists_once) {
   double const digits = (p.split_shape - 3.4) / 2.45, width2 = static_cast<double>(p.width) * p.width;
-  double const in_float = 4.0 * width2 + 100.0, in_double = 7.2 * width2 + 96.0;
-  double const part = p.single ? in_float : in_double;
-  double const pair = p.single ? 0.48 + 0.067 * digits : 1.25 + 0.095 * digits;
+  double const pair = p.single ? 0.48 + 0.067 * digits : 0.95 + 0.072 * digits;
+  double const point = p.single ? (components / 6.0 + 0.5) * (4.0 * width2 + 100.0) : (2.4 * components + 6.8) * width2;
   double const direction = !lists_once ? 1.0 : p.single ? 0.72 : 0.65, normals = components > 3 ? 1.3 : 1.0;
-  return {direction * normals * pair, (p.single ? 1.5 : 3.7) * (components + 3), (components / 6.0 + 0.5) * part};
+  return {direction * normals * pair, (p.single ? 1.5 : 3.2) * (components + 3), point};
 }
 
 // Of the 27 boxes around a leaf with n targets, the part that a group of `lanes` of them has within the cutoff: the
