@@ -50,7 +50,7 @@ void NearField<Real>::make_levels() {
 template <class Real>
 void NearField<Real>::set_points(Octree& tree) {
   lists_.set_points(tree, !gradient_);
-  reactions_.resize(4 * lists_.n_place());
+  reactions_.grow(4 * lists_.n_place());
   velocity_scale_ = std::pow(lists_.side(), decay(kernel_)) / (8.0 * M_PI);
   make_levels();
   copy_coordinates();
@@ -59,12 +59,13 @@ void NearField<Real>::set_points(Octree& tree) {
 template <class Real>
 void NearField<Real>::copy_coordinates() {
   PointArray const& sources = lists_.sources();
-  records_.resize(sources.size() * record_);
+  records_.grow(sources.size() * record_);
+  Real* const records = records_.data();
   for_blocks("NearField::copy_coordinates", static_cast<long>(sources.size()), [&](long i) {
     for (int d = 0; d < 3; ++d) {
       Real const high = static_cast<Real>(sources[i][d]);
-      records_[i * record_ + d] = high;
-      if constexpr (split_coordinates) records_[i * record_ + 3 + d] = static_cast<Real>(sources[i][d] - high);
+      records[i * record_ + d] = high;
+      if constexpr (split_coordinates) records[i * record_ + 3 + d] = static_cast<Real>(sources[i][d] - high);
     }
   });
 }

@@ -4,6 +4,7 @@
 
 #include "backends/fast_near_lists.hpp"
 #include "backends/fast_split.hpp"
+#include "backends/workspace.hpp"
 
 #include <vector>
 
@@ -51,8 +52,8 @@ class NearField {
   bool gradient_;
   int record_;  // numbers per source: coordinates (float: high and low parts), strength, normal
   std::vector<NearLevel<Real>> levels_;
-  std::vector<Real> records_;
-  std::vector<Real> reactions_;  // [place, 4]
+  Workspace<Real> records_;    // [source, record]
+  Workspace<Real> reactions_;  // [place, 4]
   Vec3d const* strengths_ = nullptr;
   Vec3d const* normals_ = nullptr;
   double velocity_scale_ = 1.0;
