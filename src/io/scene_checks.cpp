@@ -137,19 +137,15 @@ void check_sites(SceneTables const& tables, Scene const& scene) {
                                    x.y, x.z, std::abs(d), d > 0 ? "outside" : "inside"));
 }
 
-void check_repelled_objects(SceneTables const& tables, Scene const& scene) {
+void check_repelled_objects(SceneTables const& tables, Scene const& scene, bool has_fibers) {
   if (!scene.steric_repulsion) return;
-  bool has_fibers = false, has_fibers_on_bodies = false;
-  for_fibers_and_asters(tables, scene, [&](Table const&, auto const& one) {
-    has_fibers = true;
-    has_fibers_on_bodies |= !one.body.empty();
-  });
   auto const& repulsion = *scene.steric_repulsion;
-  bool const acts = (repulsion.fiber_cortex && scene.periphery && has_fibers) || (repulsion.fiber_body && has_fibers_on_bodies) ||
-                    (repulsion.body_cortex && scene.periphery && !scene.bodies.empty());
+  bool const has_cortex = scene.periphery.has_value(), has_bodies = !scene.bodies.empty();
+  bool const acts = (repulsion.fiber_cortex && has_fibers && has_cortex) || (repulsion.fiber_body && has_fibers && has_bodies) ||
+                    (repulsion.body_cortex && has_bodies && has_cortex);
   if (!acts)
     tables.steric_repulsion->fail(
-        "has nothing to repel: fiber_cortex needs fibers and a [periphery], fiber_body fibers on a [[body]], body_cortex a "
+        "has nothing to repel: fiber_cortex needs fibers and a [periphery], fiber_body fibers and a [[body]], body_cortex a "
         "[[body]] and a [periphery]");
 }
 
@@ -179,7 +175,7 @@ void check_mechanisms(SceneTables const& tables, Scene const& scene) {
   if (scene.cytoplasmic_pulling && !has_fibers) tables.cytoplasmic_pulling->fail("needs a [[fiber]] or an [[aster]] to pull");
   check_springs(tables, scene);
   check_sites(tables, scene);
-  check_repelled_objects(tables, scene);
+  check_repelled_objects(tables, scene, has_fibers);
   check_ranges(tables, scene);
 }
 

@@ -65,7 +65,7 @@ TEST(MechanismSpecs, mechanisms_without_anything_to_act_on_are_refused) {
   EXPECT_NE(refusal(periphery + ball + repulsion + "body_cortex = false\nfiber_body = true\n").find(nothing), std::string::npos);
   EXPECT_EQ(refusal(periphery + ball + repulsion), "accepted");
   EXPECT_EQ(refusal(periphery + fiber + repulsion), "accepted");
-  EXPECT_EQ(refusal(ball + fiber + "body = \"body1\"\nminus_end = \"hinged\"\n" + repulsion + "fiber_body = true\n"), "accepted");
+  EXPECT_EQ(refusal(ball + fiber + repulsion + "fiber_body = true\n"), "accepted");
 }
 
 TEST(MechanismSpecs, ranges_wider_than_the_cell_are_refused) {
