@@ -136,6 +136,9 @@ NamedArray ArrayFile::read(std::string const& name) const {
   std::size_t n = 1;
   for (std::size_t extent : array.shape) n *= extent;
   if (H5Dget_storage_size(dataset) == 0 && n > 0) fail(name, "has never been written");
+  Handle const storage(H5Dget_create_plist(dataset), H5Pclose);
+  if (H5Pall_filters_avail(storage) == 0)
+    fail(name, "is compressed in a way that this HDF5 library cannot undo; write it without compression, or with gzip");
   herr_t status = 0;
   if (kind == H5T_INTEGER) {
     std::vector<std::int64_t> values(n);

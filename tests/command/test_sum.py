@@ -183,6 +183,17 @@ class Sum(CommandTest):
             file.create_group("sources")
         self.refused(names=['"sources"', "is not a dataset"])
 
+    def test_reads_gzip_and_names_compression_that_it_cannot_read(self):
+        self.write(strengths=None)
+        with h5py.File(self.input, "a") as file:
+            file.create_dataset("strengths", data=self.points["strengths"], chunks=(7, 2), compression="gzip", shuffle=True)
+        self.sum()
+        self.output.unlink()
+        self.write(strengths=None)
+        with h5py.File(self.input, "a") as file:
+            file.create_dataset("strengths", data=self.points["strengths"], compression="lzf")  # h5py's own
+        self.refused(names=['"strengths"', "compressed"])
+
     def test_refuses_numbers_that_are_not_finite(self):
         sources = self.points["sources"].copy()
         sources[7, 1] = np.nan
