@@ -16,6 +16,7 @@ struct ExportOptions {
 
 void export_trajectory(ExportOptions const& options) {
   TrajectoryReader const trajectory(options.folder);
+  trajectory.require_states();
   auto const& header = trajectory.header();
   Scene const scene = parse_scene(header.scene_text, header.scene_file, header.overrides);
   std::filesystem::path const output =

@@ -82,6 +82,7 @@ void write_tables(ObserveOptions const& options, TrajectoryReader const& traject
 
 void observe(ObserveOptions const& options) {
   TrajectoryReader const trajectory(options.folder);
+  trajectory.require_states();
   fs::path const folder = options.output.empty() ? fs::path(options.folder) : fs::path(options.output);
   std::error_code error;
   fs::create_directories(folder, error);

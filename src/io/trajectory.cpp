@@ -225,8 +225,14 @@ Frame TrajectoryReader::frame(std::size_t i) const {
   return frame;
 }
 
+void TrajectoryReader::require_states() const {
+  if (times_.empty())
+    throw SceneError(fmt::format("{}: holds no states yet; go on with: asterflow resume {}", path_,
+                                 fs::path(path_).parent_path().string()));
+}
+
 std::size_t TrajectoryReader::nearest(double time) const {
-  if (times_.empty()) throw SceneError(path_ + ": holds no states");
+  require_states();
   if (time >= times_.back()) return times_.size() - 1;
   auto const distance = [&](double a, double b) { return std::abs(a - time) < std::abs(b - time); };
   return std::min_element(times_.begin(), times_.end(), distance) - times_.begin();

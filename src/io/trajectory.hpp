@@ -72,7 +72,8 @@ class TrajectoryReader {
   TrajectoryHeader const& header() const { return header_; }
   std::vector<double> const& times() const { return times_; }  // s
   Frame frame(std::size_t i) const;
-  std::size_t nearest(double time) const;  // index of the state closest in time; there must be one
+  std::size_t nearest(double time) const;  // index of the state closest in time
+  void require_states() const;  // SceneError where there is none: the run was killed before its first
   std::vector<NamedArray> restart() const;
 
  private:

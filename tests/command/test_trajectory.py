@@ -114,6 +114,12 @@ class Trajectory(CommandTest):
         self.assertIn("another asterflow", errors)
         self.assertEqual(second_copy.read_text(), "being written")
 
+    def test_a_run_without_states_shows_nothing(self):
+        self.assertEqual(self.finish(0), (0, ""))
+        for command in ("flow", "observe", "export"):
+            self.expect_refusal(command, self.run_folder, names=["holds no states", f"asterflow resume {self.run_folder}"])
+        self.assertEqual(sorted(p.name for p in self.run_folder.iterdir()), ["trajectory.h5"])
+
     def test_refuses_a_folder_with_other_things_in_it(self):
         self.run_folder.mkdir()
         (self.run_folder / "thesis.txt").write_text("precious")
