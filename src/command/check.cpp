@@ -7,9 +7,12 @@
 #include "system/simulation.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <memory>
+#include <string_view>
 #include <sys/resource.h>
+#include <vector>
 
 namespace asterflow {
 
@@ -118,10 +121,13 @@ void print_mechanisms(Scene const& scene) {
     print_line("cortical sites", fmt::format("{} pull with {:g} pN each",
                                              pulling->positions.empty() ? pulling->sites : static_cast<int>(pulling->positions.size()),
                                              pulling->pull_force));
-  if (auto const& repulsion = scene.steric_repulsion)
-    print_line("repulsion", fmt::format("within {:g} um:{}{}{}", repulsion->range, repulsion->fiber_cortex ? " fibers and cortex," : "",
-                                        repulsion->fiber_body ? " fibers and their body," : "",
-                                        repulsion->body_cortex ? " bodies and cortex" : ""));
+  if (auto const& repulsion = scene.steric_repulsion) {
+    std::vector<std::string_view> pairs;
+    if (repulsion->fiber_cortex) pairs.push_back("fibers and cortex");
+    if (repulsion->fiber_body) pairs.push_back("fibers and bodies");
+    if (repulsion->body_cortex) pairs.push_back("bodies and cortex");
+    print_line("repulsion", fmt::format("within {:g} um: {}", repulsion->range, fmt::join(pairs, ", ")));
+  }
 }
 
 void print_solver(Scene const& scene, Simulation const& simulation, long n_surface_node) {

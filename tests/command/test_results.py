@@ -61,6 +61,10 @@ class Results(SceneTest):
         for word in ("valid", "core", "fibers", "5", "interactions", "local", "unknowns", "evaluators", "first step", "memory"):
             self.assertIn(word, text)
 
+    def test_check_says_what_repels(self):
+        self.scene.write_text(ASTER + "[steric_repulsion]\nfiber_cortex = false\nfiber_body = true\nbody_cortex = false\n")
+        self.assertIn("within 0.05 um: fibers and bodies\n", self.expect_done("check", self.scene, "--quick").stdout)
+
     def test_check_warns_of_what_the_nodes_cannot_resolve(self):
         self.scene.write_text(CELL)
         self.assertNotIn("note", self.expect_done("check", self.scene, "--quick").stdout)
