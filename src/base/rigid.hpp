@@ -49,6 +49,19 @@ struct BodyMotionMap {
   Vector6 predicted_motion() const {
     return (Vector6() << to_eigen(predicted_velocity), to_eigen(predicted_angular_velocity)).finished();
   }
+  // Displacement (um) from the prediction, by the motion q, of what moves with the body at a point, to first order.
+  Vec3d displacement(Vector6 const& q, Vec3d point) const {
+    Vector6 const change = q - predicted_motion();
+    return displacement_per_velocity * to_vec3(change.head<3>()) +
+           cross(turn_per_angular_velocity * to_vec3(change.tail<3>()), point - predicted.position);
+  }
+  // Resistance that a spring (pN/um) adds which holds a point of the body at `arm` from its centre.
+  Matrix6 spring_resistance(Vec3d arm, Matrix3 const& stiffness) const {
+    Eigen::Matrix<double, 3, 6> moved, lever;  // displacement and velocity of the point per motion
+    moved << displacement_per_velocity * Matrix3::Identity(), -cross_matrix(arm) * turn_per_angular_velocity;
+    lever << Matrix3::Identity(), -cross_matrix(arm);
+    return lever.transpose() * stiffness * moved;
+  }
 };
 
 }  // namespace asterflow

@@ -16,7 +16,7 @@ FiberContacts::FiberContacts(FiberSurroundings const& around, Fibers& fibers, st
     : around_(around), fibers_(fibers), fiber_(fiber), first_(fibers.first_node(fiber)) {
   MinusEndSite const& site = fibers.plan(fiber).site;
   holder_ = site.is_attached() ? site.body : -1;
-  motion_ = holder_ >= 0 ? around.motions[holder_].predicted_motion() : Vector6(Vector6::Zero());
+  motion_ = holder_ >= 0 ? around.motions[holder_] : Vector6(Vector6::Zero());
   auto const nodes = fibers.nodes().subspan(first_, fibers.first_node(fiber + 1) - first_);
   predicted_.assign(nodes.begin(), nodes.end());
   positions_.resize(nodes.size());
@@ -29,11 +29,13 @@ bool FiberContacts::find_wall(int body, Vec3d position, Wall& wall) const {
     wall = {body, -closest.distance, -closest.normal};
   } else {
     Shape const& shape = *around_.bodies[body];
-    RigidPose const& pose = around_.motions[body].predicted;
-    Vec3d const in_body = pose.rotation.transpose() * (position - pose.position);
+    BodyMotionMap const& map = around_.maps[body];
+    // What displaces the body displaces places beside it the other way; a fiber moves along with its own body.
+    Vec3d const moved = body == holder_ ? Vec3d{} : map.displacement(around_.motions[body], position);
+    Vec3d const in_body = map.predicted.rotation.transpose() * (position - moved - map.predicted.position);
     if (norm(in_body - shape.centre()) > shape.size() + around_.spec.range) return false;
     ClosestPoint const closest = shape.closest_point(in_body);
-    wall = {body, closest.distance, pose.rotation * closest.normal};
+    wall = {body, closest.distance, map.predicted.rotation * closest.normal};
   }
   return wall.distance < around_.spec.range;
 }
@@ -58,6 +60,14 @@ FiberContacts::Push FiberContacts::push(double strength, Wall const& wall) const
           strength / range * to_eigen(wall.away) * to_eigen(wall.away).transpose()};
 }
 
+void FiberContacts::let_go(TipLoad const& free_tip) {
+  Fibers::Plan& plan = fibers_.plan(fiber_);
+  if (plan.node_loads.empty() && norm(plan.tip.force - free_tip.force) == 0 && plan.tip.stiffness == free_tip.stiffness) return;
+  plan.node_loads.clear();
+  plan.tip = free_tip;
+  fibers_.prepare_again(fiber_, around_.maps);
+}
+
 void FiberContacts::hold_plus_end(ConstPoints u) {
   TipLoad& load = fibers_.plan(fiber_).tip;
   if (!load.stiffness.isZero(0.0)) return;
@@ -72,7 +82,7 @@ void FiberContacts::hold_plus_end(ConstPoints u) {
     if (wall.body >= 0) plus_end_touches_.push_back({push, static_cast<std::size_t>(wall.body), 0});
     any = true;
   });
-  if (any) fibers_.prepare_again(fiber_, around_.motions);
+  if (any) fibers_.prepare_again(fiber_, around_.maps);
 }
 
 // Loads at those positions; false: none.
@@ -103,7 +113,7 @@ void FiberContacts::hold_nodes(ConstPoints u) {
     bool const any = find_nodes(positions_);
     if (!any && fibers_.plan(fiber_).node_loads.empty()) return;
     fibers_.plan(fiber_).node_loads = loads_;
-    fibers_.prepare_again(fiber_, around_.motions);
+    fibers_.prepare_again(fiber_, around_.maps);
     before = positions_;
     fibers_.node_answer(fiber_, u, motion_, positions_);
     double change = 0.0;
@@ -116,9 +126,15 @@ void FiberContacts::hold_nodes(ConstPoints u) {
 std::vector<BodyReaction> FiberContacts::settle(ConstPoints u) {
   std::vector<BodyReaction> reactions;
   if (plus_end_touches_.empty() && node_touches_.empty()) return reactions;
-  auto const react = [&](std::size_t body, Vec3d place, Vec3d force) {
-    Vec3d const arm = place - around_.motions[body].predicted.position;
-    reactions.push_back({body, (Vector6() << to_eigen(-force), to_eigen(cross(arm, -force))).finished()});
+  auto const react = [&](Touch const& touch, Vec3d place, Vec3d force, double length) {
+    auto const arm = [&](std::size_t body) { return place - around_.maps[body].predicted.position; };
+    Vector6 load;
+    load << to_eigen(-length * force), to_eigen(cross(arm(touch.body), -length * force));
+    Matrix3 const stiffness = length * touch.stiffness;
+    reactions.push_back({touch.body, load, around_.maps[touch.body].spring_resistance(arm(touch.body), stiffness)});
+    if (holder_ < 0) return;
+    std::size_t const holder = static_cast<std::size_t>(holder_);
+    reactions.push_back({holder, Vector6::Zero(), around_.maps[holder].spring_resistance(arm(holder), stiffness)});
   };
   Fibers::Plan& plan = fibers_.plan(fiber_);
   Vec3d const plus_end_moved = fibers_.tip_answer(fiber_, u, motion_).position - plan.tip.anchor;
@@ -126,19 +142,20 @@ std::vector<BodyReaction> FiberContacts::settle(ConstPoints u) {
     Vec3d const loss = touch.stiffness * plus_end_moved;
     plan.tip.force -= loss;
     plan.tip.stiffness -= touch.stiffness;
-    react(touch.body, plus_end(fibers_.predicted_shape(fiber_)), touch.force - loss);
+    react(touch, plus_end(fibers_.predicted_shape(fiber_)), touch.force - loss, 1.0);
   }
   for (Touch const& touch : node_touches_) {
     Vec3d const loss = touch.stiffness * (positions_[touch.node] - predicted_[touch.node]);
     plan.node_loads[touch.node].force -= loss;
     plan.node_loads[touch.node].stiffness -= touch.stiffness;
-    react(touch.body, predicted_[touch.node], fibers_.weights()[first_ + touch.node] * (touch.force - loss));
+    react(touch, predicted_[touch.node], touch.force - loss, fibers_.weights()[first_ + touch.node]);
   }
-  fibers_.prepare_again(fiber_, around_.motions);
+  fibers_.prepare_again(fiber_, around_.maps);
   return reactions;
 }
 
-std::vector<BodyReaction> FiberContacts::hold(ConstPoints u) {
+std::vector<BodyReaction> FiberContacts::hold(ConstPoints u, TipLoad const& free_tip) {
+  let_go(free_tip);
   hold_plus_end(u);
   hold_nodes(u);
   return settle(u);

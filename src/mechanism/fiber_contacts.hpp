@@ -20,22 +20,25 @@ struct FiberSurroundings {
   StericRepulsionSpec const& spec;
   Shape const* cortex;  // may be null
   std::span<std::shared_ptr<Shape const> const> bodies;
-  std::span<BodyMotionMap const> motions;  // of the bodies
+  std::span<BodyMotionMap const> maps;
+  std::span<Vector6 const> motions;  // of the bodies, as expected
 };
 
-// Load on a body, about its centre.
+// What a body feels of a fiber that it does not hold, and how much of it its motion q takes back if the fiber does not yield:
+// load - resistance (q - expected). Of the body that holds the fiber only the second; the first comes through the fiber.
 struct BodyReaction {
   std::size_t body;
-  Vector6 load;  // pN, pN um
+  Vector6 load;        // pN, pN um about its centre
+  Matrix6 resistance;  // pN s/um, pN s, pN s um
 };
 
 class FiberContacts {
  public:
   FiberContacts(FiberSurroundings const& around, Fibers& fibers, std::size_t fiber);
 
-  // Plans the loads of the fiber, after prepare; u [n_node of all fibers]: incident flow, extrapolated.
-  // Returns what bodies feel that do not hold the fiber.
-  std::vector<BodyReaction> hold(ConstPoints u);
+  // Plans the loads of the fiber, after prepare, and takes back those planned before; u [n_node of all fibers]: incident flow,
+  // extrapolated; `free_tip`: the load of the plus end without contacts.
+  std::vector<BodyReaction> hold(ConstPoints u, TipLoad const& free_tip);
 
  private:
   struct Wall {
@@ -55,6 +58,7 @@ class FiberContacts {
   void for_walls(Vec3d position, double arc_length, Function&& function) const;
   bool find_wall(int body, Vec3d position, Wall& wall) const;
   Push push(double strength, Wall const& wall) const;
+  void let_go(TipLoad const& free_tip);
   void hold_plus_end(ConstPoints u);
   bool find_nodes(ConstPoints positions);
   void hold_nodes(ConstPoints u);

@@ -4,39 +4,103 @@
 #include "mechanism/fiber_contacts.hpp"
 #include "surface/contact.hpp"
 
+#include <Eigen/LU>
+#include <algorithm>
+
 namespace asterflow {
+
+namespace {
+
+constexpr int most_passes = 20;
+
+// Whether there is a fiber and a body that does not hold it.
+bool meets_others(Fibers& fibers, std::size_t n_body) {
+  if (n_body != 1) return n_body > 1 && fibers.count() > 0;
+  for (std::size_t i = 0; i < fibers.count(); ++i)
+    if (!fibers.plan(i).site.is_attached()) return true;
+  return false;
+}
+
+}  // namespace
 
 StericRepulsion::StericRepulsion(StericRepulsionSpec const& spec, std::shared_ptr<Shape const> cortex,
                                  std::vector<std::shared_ptr<Shape const>> bodies)
-    : spec_(spec), cortex_(std::move(cortex)), bodies_(std::move(bodies)), fiber_loads_(bodies_.size(), Vector6::Zero()) {}
+    : spec_(spec), cortex_(std::move(cortex)), bodies_(std::move(bodies)) {}
 
-void StericRepulsion::hold(Fibers& fibers, ConstPoints u, std::span<BodyMotionMap const> bodies) {
-  if (!(cortex_ && spec_.fiber_cortex) && !spec_.fiber_body) return;
-  FiberSurroundings const around{spec_, cortex_.get(), bodies_, bodies};
+// For those motions of the bodies.
+StericRepulsion::BodyContacts StericRepulsion::hold(Fibers& fibers, ConstPoints u, std::span<BodyMotionMap const> bodies,
+                                                    std::span<Vector6 const> motions, std::span<TipLoad const> free_tips) const {
+  FiberSurroundings const around{spec_, cortex_.get(), bodies_, bodies, motions};
   std::vector<std::vector<BodyReaction>> reactions(fibers.count());
   parallel_for("StericRepulsion::hold", static_cast<long>(fibers.count()), [&](long i) {
-    reactions[i] = FiberContacts(around, fibers, static_cast<std::size_t>(i)).hold(u);
+    reactions[i] = FiberContacts(around, fibers, static_cast<std::size_t>(i)).hold(u, free_tips[i]);
   });
-  fiber_loads_.assign(bodies_.size(), Vector6::Zero());
+  BodyContacts contacts{.loads = std::vector<ContactLoad>(bodies_.size())};
   for (auto const& of_fiber : reactions)
-    for (BodyReaction const& reaction : of_fiber) fiber_loads_[reaction.body] += reaction.load;
+    for (BodyReaction const& reaction : of_fiber) {
+      contacts.loads[reaction.body].load += reaction.load;
+      contacts.loads[reaction.body].resistance += reaction.resistance;
+      contacts.any = true;
+    }
+  return contacts;
+}
+
+// Broyden's method for the motions q of all bodies: residual = K (q - local motion) - load by fibers. The first matrix takes
+// fibers for rigid.
+std::vector<Vector6> StericRepulsion::hold(Fibers& fibers, ConstPoints u, std::span<BodyMotionMap const> bodies,
+                                           std::function<LocalMotions()> const& local_motions) const {
+  std::size_t const n = bodies.size();
+  std::vector<Vector6> motions, loads(n, Vector6::Zero());
+  if (!(cortex_ && spec_.fiber_cortex) && !spec_.fiber_body) return loads;
+  for (auto const& map : bodies) motions.push_back(map.predicted_motion());
+  std::vector<TipLoad> free_tips;
+  for (std::size_t i = 0; i < fibers.count(); ++i) free_tips.push_back(fibers.plan(i).tip);
+
+  bool const can_touch = spec_.fiber_body && meets_others(fibers, n);
+  bool had_contact = false;
+  Eigen::Index const size = static_cast<Eigen::Index>(6 * n);
+  Eigen::VectorXd residual(size), before(size), change = Eigen::VectorXd::Zero(size);
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Identity(size, size);
+  for (int pass = 0; pass < most_passes; ++pass) {
+    BodyContacts const contacts = hold(fibers, u, bodies, motions, free_tips);
+    for (std::size_t b = 0; b < n; ++b) loads[b] = contacts.loads[b].load;
+    if (!can_touch) return loads;
+    LocalMotions const local = local_motions();
+    before = residual;
+    for (std::size_t b = 0; b < n; ++b) {
+      Eigen::Index const row = static_cast<Eigen::Index>(6 * b);
+      bool const is_free = !local.resistances[b].isZero(0.0);
+      residual.segment<6>(row) =
+          is_free ? Vector6(local.resistances[b] * (motions[b] - local.motions[b]) - loads[b]) : Vector6(Vector6::Zero());
+      if (!had_contact && is_free) jacobian.block<6, 6>(row, row) = local.resistances[b] + contacts.loads[b].resistance;
+    }
+    if (had_contact) jacobian += (residual - before - jacobian * change) / change.squaredNorm() * change.transpose();
+    had_contact = contacts.any;
+    change = -jacobian.partialPivLu().solve(residual);
+    double moved = 0.0;
+    for (std::size_t b = 0; b < n; ++b) {
+      Vector6 const next = motions[b] + change.segment<6>(static_cast<Eigen::Index>(6 * b));
+      Vec3d const aside = bodies[b].predicted.position + Vec3d{bodies_[b]->size(), 0, 0};
+      moved = std::max(moved, norm(bodies[b].displacement(next, aside) - bodies[b].displacement(motions[b], aside)));
+      motions[b] = next;
+    }
+    if (moved < 1e-5 * spec_.range) break;
+  }
+  return loads;
 }
 
 ContactLoad StericRepulsion::on_body(std::size_t body, BodyMotionMap const& map) const {
-  ContactLoad result{.load = fiber_loads_[body]};
+  ContactLoad result;
   if (!cortex_ || !spec_.body_cortex) return result;
   PlacedSurface const placed{bodies_[body], map.predicted.position, Eigen::Quaterniond(map.predicted.rotation)};
   Contact const contact = find_contact(placed, {.shape = cortex_, .encloses = true});
   if (!(contact.gap < spec_.range)) return result;
   Vec3d const arm = contact.first - map.predicted.position;
   Eigen::Vector3d const away = -to_eigen(cortex_->closest_point(contact.first).normal);
-  Eigen::Matrix<double, 3, 6> motion, lever;  // of the point by q, um s; and its velocity
-  motion << map.displacement_per_velocity * Matrix3::Identity(), -cross_matrix(arm) * map.turn_per_angular_velocity;
-  lever << Matrix3::Identity(), -cross_matrix(arm);
-  Matrix3 const stiffness = spec_.body_force / spec_.range * away * away.transpose();
-  result.resistance = lever.transpose() * stiffness * motion;
-  result.load += lever.transpose() * (spec_.body_force * (1 - contact.gap / spec_.range) * away) +
-                result.resistance * map.predicted_motion();
+  result.resistance = map.spring_resistance(arm, spec_.body_force / spec_.range * away * away.transpose());
+  Eigen::Vector3d const force = spec_.body_force * (1 - contact.gap / spec_.range) * away;
+  result.load << force, to_eigen(cross(arm, to_vec3(force)));
+  result.load += result.resistance * map.predicted_motion();
   return result;
 }
 

@@ -78,6 +78,9 @@ class Scattering {
 
   ConstPoints nodes() const;  // where z lives; without interactions the fibers' nodes
 
+  // Of a body with the fibers that it holds, at fixed incident flow.
+  Matrix6 resistance(std::size_t body) const { return held_resistance_[body].reconstructedMatrix(); }
+
   // Changes what drives a body.
   void set_drive(std::size_t body, Vector6 const& value) { bodies_[body].value = value; }
 

@@ -86,12 +86,34 @@ void Simulation::plan_fibers(double dt) {
   plus_ends_->plan(dt, fibers_, poses, motions);
 }
 
-// Contacts of the fibers, for the incident flow that is expected.
-void Simulation::hold_fibers(PointArray u, std::vector<BodyMotionMap> const& maps) {
-  if (!plus_ends_ && !steric_repulsion_) return;
+// Contacts of fibers and bodies, for the incident flow that is expected; returns those of the bodies.
+std::vector<ContactLoad> Simulation::hold_fibers(ConstPoints expected, std::vector<BodyMotionMap> const& maps) {
+  std::vector<ContactLoad> contacts = this->contacts(maps);
+  if (!plus_ends_ && !steric_repulsion_) return contacts;
+  PointArray u(expected.begin(), expected.end());
   u.resize(fibers_.node_count());
   if (plus_ends_) plus_ends_->hold(fibers_, u, maps);
-  if (steric_repulsion_) steric_repulsion_->hold(fibers_, u, maps);
+  if (!steric_repulsion_) return contacts;
+  auto const local = [&] { return local_motions(expected, drives(maps, contacts)); };
+  auto const loads = steric_repulsion_->hold(fibers_, u, maps, local);
+  for (std::size_t b = 0; b < contacts.size(); ++b)
+    if (bodies_[b].is_free()) contacts[b].load += loads[b];
+  return contacts;
+}
+
+LocalMotions Simulation::local_motions(ConstPoints expected, std::vector<BodyDrive> const& drives) const {
+  SteppedFibers const answers(fibers_, nullptr);
+  Scattering const alone(answers, drives, nullptr, nullptr, {});
+  std::vector<Vector6> loads(drives.size(), Vector6::Zero());
+  PointArray u(expected.begin(), expected.end()), force_density(fibers_.node_count());
+  u.resize(fibers_.node_count());
+  LocalMotions local;
+  for (std::size_t b = 0; b < drives.size(); ++b) {
+    if (radiation_ && !expected.empty()) loads[b] = radiation_->load_of_incident(b, expected);
+    local.resistances.push_back(drives[b].is_free ? alone.resistance(b) : Matrix6(Matrix6::Zero()));
+  }
+  alone.answer(u, loads, true, force_density, local.motions);
+  return local;
 }
 
 TipState Simulation::tip_state(std::size_t fiber) const { return plus_ends_ ? plus_ends_->state_of(fiber) : TipState::still; }
@@ -215,11 +237,10 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   plan_fibers(dt);
   fibers_.prepare(dt, maps);
   PointArray const expected = guess(dt);
-  hold_fibers(expected, maps);
+  std::vector<ContactLoad> const contacts = hold_fibers(expected, maps);
   trial.misplaced = misplaced_prediction(maps);
   report.prepare_seconds += timer.seconds();
   if (!trial.misplaced.empty()) return trial;
-  std::vector<ContactLoad> const contacts = this->contacts(maps);
   trial.solution = solve(expected, maps, contacts, report);
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     trial.contacts.push_back(contacts[b].load - contacts[b].resistance * trial.solution.motions[b]);

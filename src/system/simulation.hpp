@@ -73,7 +73,8 @@ class Simulation {
   std::vector<NamedArray> fiber_frame() const;
   std::vector<NamedArray> fiber_end_frame() const;
   void plan_fibers(double dt);
-  void hold_fibers(PointArray u, std::vector<BodyMotionMap> const& maps);
+  std::vector<ContactLoad> hold_fibers(ConstPoints expected, std::vector<BodyMotionMap> const& maps);
+  LocalMotions local_motions(ConstPoints expected, std::vector<BodyDrive> const& drives) const;
   std::vector<ContactLoad> contacts(std::vector<BodyMotionMap> const& maps) const;  // of the bodies with the periphery
   std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps, std::vector<ContactLoad> const& contacts) const;
   Trial attempt(double dt, StepReport& report);

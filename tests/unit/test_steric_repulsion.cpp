@@ -172,6 +172,32 @@ TEST(StericRepulsion, plus_end_rests_on_a_body_that_does_not_hold_it) {
   EXPECT_LT(gap, 0.08);
 }
 
+TEST(StericRepulsion, body_rests_on_a_fiber_that_cannot_yield) {
+  auto const simulation = simulated(R"(
+    [fluid]
+    viscosity = 0.6
+    [[body]]
+    shape = "sphere"
+    radius = 1.0
+    position = [0.0, 0.0, 1.2]
+    force = [0.0, 0.0, -5.0]
+    [[fiber]]
+    position = [-1.0, 0.0, 0.0]
+    direction = [1.0, 0.0, 0.0]
+    length = 4.0
+    minus_end = "clamped"
+    bending_rigidity = 1e5
+    [steric_repulsion]
+    range = 0.1
+    fiber_force = 1000.0
+    fiber_body = true
+    [run]
+    interactions = "local"
+    accuracy = 1e-3
+  )", 12.0);
+  EXPECT_NEAR(simulation->fibers().ends(0).contact.z, -5.0, 0.05);
+}
+
 TEST(StericRepulsion, body_feels_what_it_does_to_a_fiber_of_others) {
   Simulation simulation(parse_scene(R"(
     [fluid]
