@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "command/progress.hpp"
+#include "io/output_folder.hpp"
 #include "io/picture.hpp"
 #include "io/scene.hpp"
 #include "io/whole_file.hpp"
@@ -81,9 +82,7 @@ fs::path prepare_folder(DragOptions const& options, Scene const& scene) {
   std::error_code error;
   if (fs::exists(folder / "drag.csv", error) && read_text(folder / "drag.toml") != identity_of(scene))
     throw SceneError((folder / "drag.csv").string() + ": is there already, of another scene; choose another folder with -o");
-  fs::create_directories(folder, error);
-  if (error || ::access(folder.c_str(), W_OK) != 0)
-    throw SceneError(folder.string() + ": cannot be used for output; choose another folder with -o");
+  make_output_folder(folder);
   if (read_text(folder / "drag.toml") != identity_of(scene))
     write_whole_text(folder / "drag.toml", [&](std::ostream& file) { file << identity_of(scene); });
   return folder;

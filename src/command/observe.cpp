@@ -1,6 +1,7 @@
 #include "command/observe.hpp"
 
 #include "base/error.hpp"
+#include "io/output_folder.hpp"
 #include "io/picture.hpp"
 #include "io/scene.hpp"
 #include "io/trajectory.hpp"
@@ -84,10 +85,7 @@ void observe(ObserveOptions const& options) {
   TrajectoryReader const trajectory(options.folder);
   trajectory.require_states();
   fs::path const folder = options.output.empty() ? fs::path(options.folder) : fs::path(options.output);
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || ::access(folder.c_str(), W_OK) != 0)
-    throw SceneError(folder.string() + ": cannot be used for output; choose another folder with -o");
+  make_output_folder(folder);
   fs::path const numbers = folder / "observables.csv", lengths = folder / "lengths.csv", picture = folder / "observables.png";
   write_whole_text(numbers, [&](std::ostream& table) {
     write_whole_text(lengths, [&](std::ostream& distribution) { write_tables(options, trajectory, table, distribution); });

@@ -41,6 +41,15 @@ void refuse_other_overrides(std::vector<std::string> const& overrides) {
                                    "else", one));
 }
 
+// To the last stored state.
+void restore(Simulation& simulation, TrajectoryReader const& reader, std::string const& folder) {
+  try {
+    simulation.restore(reader.times().back(), reader.restart());
+  } catch (SceneError const& error) {
+    throw SceneError(folder + "/trajectory.h5: " + error.what());
+  }
+}
+
 void resume(ResumeOptions const& options) {
   refuse_other_overrides(options.overrides);
   TrajectoryReader const reader(options.folder);
@@ -63,7 +72,7 @@ void resume(ResumeOptions const& options) {
   {
     auto trajectory = TrajectoryWriter::resume(options.folder, overrides);
     Simulation simulation(scene);
-    if (has_started) simulation.restore(time, reader.restart());
+    if (has_started) restore(simulation, reader, options.folder);
     else store_state(simulation, trajectory);
     signal = simulate(simulation, trajectory, options.folder);
   }

@@ -1,6 +1,7 @@
 #include "command/torque.hpp"
 
 #include "base/error.hpp"
+#include "io/output_folder.hpp"
 #include "io/picture.hpp"
 #include "io/whole_file.hpp"
 #include "system/torque_instability.hpp"
@@ -9,7 +10,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <unistd.h>
 
 namespace asterflow {
 
@@ -39,9 +39,7 @@ fs::path prepare_folder(TorqueOptions const& options) {
   std::error_code error;
   if (fs::exists(folder / "torque.csv", error))
     throw SceneError((folder / "torque.csv").string() + ": is there already; choose another folder with -o");
-  fs::create_directories(folder, error);
-  if (error || ::access(folder.c_str(), W_OK) != 0)
-    throw SceneError(folder.string() + ": cannot be used for output; choose another folder with -o");
+  make_output_folder(folder);
   return folder;
 }
 

@@ -14,7 +14,7 @@ std::vector<double> numbers_of(Frame const& frame, std::string const& name) {
   auto const* array = find_array(frame, name);
   if (!array) return {};
   auto const* values = std::get_if<std::vector<double>>(&array->values);
-  if (!values) throw SceneError("trajectory: " + name + ": must hold floating-point numbers");
+  if (!values) throw SceneError(frame.place + "/" + name + ": must hold floating-point numbers");
   return *values;
 }
 
@@ -22,13 +22,13 @@ std::vector<std::int64_t> integers_of(Frame const& frame, std::string const& nam
   auto const* array = find_array(frame, name);
   if (!array) return {};
   auto const* values = std::get_if<std::vector<std::int64_t>>(&array->values);
-  if (!values) throw SceneError("trajectory: " + name + ": must hold whole numbers");
+  if (!values) throw SceneError(frame.place + "/" + name + ": must hold whole numbers");
   return *values;
 }
 
 PointArray points_of(Frame const& frame, std::string const& name) {
   auto const values = numbers_of(frame, name);
-  if (values.size() % 3 != 0) throw SceneError("trajectory: " + name + ": must have shape [n, 3]");
+  if (values.size() % 3 != 0) throw SceneError(frame.place + "/" + name + ": must have shape [n, 3]");
   PointArray points(values.size() / 3);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
   return points;

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "io/frame.hpp"
+#include "io/output_folder.hpp"
 #include "io/surface_mesh.hpp"
 
 #include <fmt/format.h>
@@ -77,9 +78,7 @@ PolyMesh periphery_mesh(Scene const& scene) {
 }
 
 void write_paraview(TrajectoryReader const& trajectory, Scene const& scene, std::filesystem::path const& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw SceneError(fmt::format("{}: cannot be used: {}", folder.string(), error.message()));
+  make_output_folder(folder);
   std::vector<TimedPart> parts;
   auto const add = [&](double time, std::string const& part, std::string const& name, PolyMesh const& mesh) {
     if (!mesh.points.empty()) write_vtp(folder / name, mesh);

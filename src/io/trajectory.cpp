@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "io/array_file.hpp"
+#include "io/output_folder.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -85,15 +86,6 @@ void write_frame(ArrayFile& file, Frame const& frame) {
   file.append("time", frame.time, "s");
 }
 
-void make_folder(fs::path const& folder) {
-  std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    throw SceneError(folder.string() + ": is a file; choose another output folder with -o");
-  fs::create_directories(folder, error);
-  if (error) throw SceneError(fmt::format("{}: cannot be used for output: {}; choose another folder with -o",
-                                          folder.string(), error.message()));
-}
-
 // Call with the folder locked: before its first state another run has only its second copy there.
 void refuse_used_folder(fs::path const& folder) {
   if (fs::exists(current(folder)))
@@ -131,7 +123,7 @@ TrajectoryWriter::~TrajectoryWriter() {
 }
 
 TrajectoryWriter TrajectoryWriter::create(fs::path folder, TrajectoryHeader const& header) {
-  make_folder(folder);
+  make_output_folder(folder);
   TrajectoryWriter writer(std::move(folder));
   refuse_used_folder(writer.folder_);
   writer.overrides_ = text_of(header.overrides);
@@ -220,7 +212,7 @@ TrajectoryReader::TrajectoryReader(fs::path const& folder) : path_(current(folde
 
 Frame TrajectoryReader::frame(std::size_t i) const {
   ArrayFile const file(path_, ArrayFile::Mode::read);
-  Frame frame{times_.at(i), file.read_group(frame_name(i))};
+  Frame frame{times_.at(i), file.read_group(frame_name(i)), path_ + ": " + frame_name(i)};
   std::erase_if(frame.arrays, [](NamedArray const& array) { return array.name == "time"; });
   return frame;
 }

@@ -36,6 +36,7 @@ struct TrajectoryHeader {
 struct Frame {
   double time = 0.0;  // s
   std::vector<NamedArray> arrays;
+  std::string place = "trajectory";  // file and group, for messages
 };
 
 class TrajectoryWriter {
