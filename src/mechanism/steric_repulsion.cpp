@@ -79,10 +79,10 @@ std::vector<Vector6> StericRepulsion::hold(Fibers& fibers, ConstPoints u, std::s
     change = -jacobian.partialPivLu().solve(residual);
     double moved = 0.0;
     for (std::size_t b = 0; b < n; ++b) {
-      Vector6 const next = motions[b] + change.segment<6>(static_cast<Eigen::Index>(6 * b));
-      Vec3d const aside = bodies[b].predicted.position + Vec3d{bodies_[b]->size(), 0, 0};
-      moved = std::max(moved, norm(bodies[b].displacement(next, aside) - bodies[b].displacement(motions[b], aside)));
-      motions[b] = next;
+      Vector6 const correction = change.segment<6>(static_cast<Eigen::Index>(6 * b));
+      moved = std::max(moved, bodies[b].displacement_per_velocity * correction.head<3>().norm() +
+                                  bodies_[b]->size() * (bodies[b].turn_per_angular_velocity * correction.tail<3>()).norm());
+      motions[b] += correction;
     }
     if (moved < 1e-5 * spec_.range) break;
   }
