@@ -28,6 +28,11 @@ inline Vec3d velocity_of_motion(Vector6 const& motion, Vec3d from_centre) {
   return to_vec3(motion.head<3>()) + cross(to_vec3(motion.tail<3>()), from_centre);
 }
 
+// Force and torque about the centre, of a force at r from the centre.
+inline Vector6 load_of_force(Vec3d force, Vec3d from_centre) {
+  return (Vector6() << to_eigen(force), to_eigen(cross(from_centre, force))).finished();
+}
+
 // Where a body is: position of its centre (um) and rotation from the body frame to space.
 struct RigidPose {
   Vec3d position;

@@ -76,8 +76,7 @@ Vector6 FiberResponse::predicted_motion() const {
 }
 
 void FiberResponse::add_body_load(Vec3d point, Vec3d force, Vector6& load) const {
-  load.head<3>() += to_eigen(force);
-  load.tail<3>() += to_eigen(cross(point - step_.body->predicted.position, force));
+  load += load_of_force(force, point - step_.body->predicted.position);
 }
 
 // f = (a0/dt) (1/w) reduced_drag^T reduced

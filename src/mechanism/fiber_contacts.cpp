@@ -74,7 +74,7 @@ void FiberContacts::hold_plus_end(ConstPoints u) {
   Vec3d const position = fibers_.tip_answer(fiber_, u, motion_).position;
   bool any = false;
   for_walls(position, fibers_.plan(fiber_).length, [&](Wall const& wall) {
-    if (wall.body >= 0 && wall.body == holder_) return;
+    if (is_own(wall)) return;
     Push const push = this->push(plus_end_length * around_.spec.fiber_force, wall);
     load.force += push.force;
     load.stiffness += push.stiffness;
@@ -98,8 +98,8 @@ bool FiberContacts::find_nodes(ConstPoints positions) {
       push.force += push.stiffness * (positions[i] - predicted_[i]);
       loads_[i].force += push.force;
       loads_[i].stiffness += push.stiffness;
-      loads_[i].is_internal = wall.body >= 0 && wall.body == holder_;
-      if (wall.body >= 0 && wall.body != holder_)
+      loads_[i].is_internal = is_own(wall);
+      if (wall.body >= 0 && !is_own(wall))
         node_touches_.push_back({push, static_cast<std::size_t>(wall.body), i});
       any = true;
     });
@@ -128,8 +128,7 @@ std::vector<BodyReaction> FiberContacts::settle(ConstPoints u) {
   if (plus_end_touches_.empty() && node_touches_.empty()) return reactions;
   auto const react = [&](Touch const& touch, Vec3d place, Vec3d force, double length) {
     auto const arm = [&](std::size_t body) { return place - around_.maps[body].predicted.position; };
-    Vector6 load;
-    load << to_eigen(-length * force), to_eigen(cross(arm(touch.body), -length * force));
+    Vector6 const load = load_of_force(-length * force, arm(touch.body));
     Matrix3 const stiffness = length * touch.stiffness;
     reactions.push_back({touch.body, load, around_.maps[touch.body].spring_resistance(arm(touch.body), stiffness)});
     if (holder_ < 0) return;

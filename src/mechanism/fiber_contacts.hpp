@@ -54,6 +54,7 @@ class FiberContacts {
     std::size_t body, node;  // at the plus end: no node
   };
 
+  bool is_own(Wall const& wall) const { return holder_ >= 0 && wall.body == holder_; }
   template <class Function>
   void for_walls(Vec3d position, double arc_length, Function&& function) const;
   bool find_wall(int body, Vec3d position, Wall& wall) const;

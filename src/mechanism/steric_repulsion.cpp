@@ -98,9 +98,8 @@ ContactLoad StericRepulsion::on_body(std::size_t body, BodyMotionMap const& map)
   Vec3d const arm = contact.first - map.predicted.position;
   Eigen::Vector3d const away = -to_eigen(cortex_->closest_point(contact.first).normal);
   result.resistance = map.spring_resistance(arm, spec_.body_force / spec_.range * away * away.transpose());
-  Eigen::Vector3d const force = spec_.body_force * (1 - contact.gap / spec_.range) * away;
-  result.load << force, to_eigen(cross(arm, to_vec3(force)));
-  result.load += result.resistance * map.predicted_motion();
+  Vec3d const force = spec_.body_force * (1 - contact.gap / spec_.range) * to_vec3(away);
+  result.load = load_of_force(force, arm) + result.resistance * map.predicted_motion();
   return result;
 }
 

@@ -56,9 +56,7 @@ Vec3d RigidFibers::drag(Fiber const& fiber, std::size_t node, Vec3d velocity) co
 
 Vector6 RigidFibers::load(Fiber const& fiber, std::size_t node, Vec3d force) const {
   Vec3d const weighted = weights_[node] * force;
-  Vector6 v;
-  v << to_eigen(weighted), to_eigen(cross(nodes_[node] - fiber.origin, weighted));
-  return v;
+  return load_of_force(weighted, nodes_[node] - fiber.origin);
 }
 
 void RigidFibers::add_linear_response(ConstPoints u, std::span<Vector6 const> motions, Points f,
