@@ -28,6 +28,13 @@ class FlowLibrary {
   std::vector<Made> flows_;
 };
 
+// Of forces and torques, from the body frame to space.
+Matrix6 turn_of(RigidPose const& pose) {
+  Matrix6 turn = Matrix6::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = pose.rotation;
+  return turn;
+}
+
 }  // namespace
 
 Surface plain_surface(ShapeSpec const& spec, int order) {
@@ -72,9 +79,16 @@ std::unique_ptr<Radiation> make_radiation(Scene const& scene, SceneFlows const& 
 }
 
 Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double viscosity) {
-  Matrix6 turn = Matrix6::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = pose.rotation;
+  Matrix6 const turn = turn_of(pose);
   return viscosity * turn * flow.resistance() * turn.transpose();
+}
+
+Vector6 body_load(DirichletFlow const& flow, RigidPose const& pose, double viscosity, BackgroundFlow const& background) {
+  Matrix3 const back = pose.rotation.transpose();
+  PointArray at_wall;
+  for (Vec3d const node : flow.surface().nodes())
+    at_wall.push_back(back * background.velocity(pose.point(node)));
+  return viscosity * turn_of(pose) * flow.load(at_wall);
 }
 
 }  // namespace asterflow

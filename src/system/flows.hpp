@@ -1,6 +1,7 @@
 #pragma once
 // The precomputed flows of a scene's surfaces at one resolution; bodies of equal shape and order share theirs.
 
+#include "background/background_flow.hpp"
 #include "io/scene.hpp"
 #include "system/radiation.hpp"
 
@@ -31,5 +32,7 @@ Surface plain_surface(ShapeSpec const& shape, int order);
 
 // Resistance of a body alone in unbounded fluid, force and torque about its centre.
 Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double viscosity);
+// Force and torque about its centre on a body alone that is held in that flow.
+Vector6 body_load(DirichletFlow const& flow, RigidPose const& pose, double viscosity, BackgroundFlow const& background);
 
 }  // namespace asterflow

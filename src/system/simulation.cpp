@@ -141,11 +141,8 @@ std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps
     auto const& body = bodies_[b];
     BodyDrive drive{maps[b].predicted, resistance_alone(b, maps[b].predicted),
                     body.is_free(), body.is_free() ? body.external_load() : body.prescribed_motion()};
-    if (!radiation_ && background_ && body.is_free()) {  // otherwise the background is part of the incident flow
-      Vector6 carried;
-      carried << to_eigen(background_->velocity(drive.pose.position)), to_eigen(background_->rotation());
-      drive.value += drive.resistance * carried;
-    }
+    if (!radiation_ && background_ && body.is_free())  // otherwise the background is part of the incident flow
+      drive.value += body_load(*flows_.bodies[b], drive.pose, scene_.fluid.viscosity, *background_);
     drive.resistance += contacts[b].resistance;
     drive.value += contacts[b].load;
     drives.push_back(drive);
