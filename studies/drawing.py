@@ -19,6 +19,15 @@ def time_stamp(seconds):
     return f"{int(seconds // 60):02d}:{int(seconds % 60):02d}"
 
 
+def draw_tension_key(axis, limit):
+    """In the upper left corner of a dark picture of fibers."""
+    key = axis.inset_axes([0.025, 0.94, 0.13, 0.025])
+    key.imshow(np.linspace(-limit, limit, 64)[None], cmap="RdBu", aspect="auto", extent=(-limit, limit, 0, 1))
+    key.set(xticks=[-limit, limit], yticks=[])
+    key.set_xticklabels([f"{-limit:g}", f"{limit:g} pN"], color="white", fontsize=6)
+    key.tick_params(length=0, pad=1)
+
+
 def draw_plane(axis, flow, limit=1.0):
     """Plane z = 0 of a flow file: streamlines, fibers coloured by tension from red (compression, -limit pN) over white to
     blue (extension), PNC and cortex, time in minutes:seconds."""
@@ -38,6 +47,7 @@ def draw_plane(axis, flow, limit=1.0):
         lines.set_array(tension)
         lines.set_clim(-limit, limit)
         axis.add_collection(lines)
+        draw_tension_key(axis, limit)
     axis.contourf(first, second, flow["body_distance"][:], levels=[-1e9, 0], colors=["0.85"], zorder=3)
     if "periphery_distance" in flow:
         axis.contour(first, second, flow["periphery_distance"][:], levels=[0], colors="white", linewidths=1.2, zorder=3)
@@ -74,17 +84,19 @@ def draw_space(axis, run, time, semi_axes=(25.0, 15.0, 15.0), radius=5.0, limit=
     return time_stamp(stamp)
 
 
-def draw_course(axis, tables, labels=None, colors=("tab:blue", "tab:red")):
-    """Position along x (left) and angle of the intercentrosomal axis (right) of several runs against minutes."""
+def draw_course(axis, tables, labels, paper="", colors=("tab:blue", "tab:red")):
+    """Position along x (left) and angle of the intercentrosomal axis (right) of several runs against minutes; what the paper
+    says of them."""
     right = axis.twinx()
     for i, table in enumerate(tables):
         style = SEED_STYLES[i % len(SEED_STYLES)]
-        axis.plot(table["time"] / 60, table["pnc_x"], style, color=colors[0], label=labels[i] if labels else None)
+        axis.plot(table["time"] / 60, table["pnc_x"], style, color=colors[0], label=labels[i])
         right.plot(table["time"] / 60, table["pnc_angle"], style, color=colors[1])
     axis.axhline(0.0, color="0.7", linewidth=0.8)
     axis.set(xlabel="time (min)", ylim=(-2, 11))
     axis.set_ylabel("position along AP (um)", color=colors[0])
     right.set(ylim=(0, 95), yticks=range(0, 91, 30))
     right.set_ylabel("angle to AP (degrees)", color=colors[1])
-    if labels:
-        axis.legend(fontsize=7)
+    axis.legend(fontsize=7)
+    if paper:
+        axis.set_title(f"paper: {paper}", fontsize=9)

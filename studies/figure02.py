@@ -4,9 +4,11 @@ and turned, with and without microtubules."""
 
 import csv
 import json
+import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import LogFormatter
 
 from drawing import draw_plane
 from study import SCENES, Study
@@ -25,6 +27,8 @@ def measure_drag(study, scene):
             settings |= {"drag.settling_time": 0.1, "drag.duration": 0.1, "run.accuracy": 1e-2}
         study.asterflow("drag", scene, "-o", folder,
                         *[word for key, value in settings.items() for word in ("--set", f"{key}={json.dumps(value)}")])
+    elif not (folder / "drag.csv").exists():
+        sys.exit(f"{study.figure}: {folder} has not been run: leave out --drawing-only")
     with open(folder / "drag.csv", newline="") as file:
         return list(csv.DictReader(file))
 
@@ -35,8 +39,11 @@ def draw_drag(axis, rows, motion, effective_sphere):
         axis.errorbar([int(row["fibers"]) for row in chosen], [float(row[f"{motion}_drag"]) for row in chosen],
                       [float(row[f"{motion}_spread"]) for row in chosen], color=color, marker=marker, capsize=2, label=level)
     axis.axhline(effective_sphere, color="black", linewidth=0.8, label="sphere of twice the radius")
-    axis.set(yscale="log", xlabel="microtubules", ylabel="relative drag", title=motion)
+    axis.margins(y=0.25)
+    axis.set(yscale="log", ylim=(0.8, None), xlabel="microtubules", ylabel="relative drag", title=motion)
     axis.grid(alpha=0.3, which="both")
+    for part in (axis.yaxis.set_major_formatter, axis.yaxis.set_minor_formatter):
+        part(LogFormatter(minor_thresholds=(2, 0.5)))
 
 
 def record_drag(study, rows):
@@ -59,7 +66,7 @@ def main():
     picture, axes = plt.subplots(2, 3, figsize=(15, 8), constrained_layout=True)
     draw_drag(axes[0, 0], rows, "translation", 2.0)
     draw_drag(axes[1, 0], rows, "rotation", 8.0)
-    axes[0, 0].legend(fontsize=8)
+    axes[0, 0].legend(fontsize=8, ncol=2)
     record_drag(study, rows)
     with_fibers = study.options.fibers
     for (title, load), axis_row in zip(LOADS.items(), axes):

@@ -6,7 +6,7 @@ from study import Study
 
 study = Study("figure04", __doc__)
 runs = study.runs("pushing_free_sliding", "pushing_free_sliding.toml", 2400.0)
-picture, tables = draw_mechanism(study, runs, "cortical pushing, free sliding")
+picture, tables = draw_mechanism(study, runs, "cortical pushing, free sliding", "centres, does not align within 40 min")
 record_course(study, tables, "centres", "not within 40 min")
 record_shape(study, tables)
 study.finish(picture)

@@ -6,7 +6,8 @@ from pushing import no_sliding_runs
 from study import Study
 
 study = Study("figure05", __doc__)
-picture, tables = draw_mechanism(study, no_sliding_runs(study, 5), "cortical pushing, no sliding")
+picture, tables = draw_mechanism(study, no_sliding_runs(study, 5), "cortical pushing, no sliding",
+                                 "centres in about 8 min, aligns in 3.5 times that")
 record_course(study, tables, "about 8 min", "3.5 times the centring time")
 record_shape(study, tables)
 study.finish(picture)

@@ -9,7 +9,7 @@ from study import Study, centring_time, drift_speed, mean_over
 
 study = Study("figure06", __doc__)
 runs = study.runs("cytoplasmic_pulling", "cytoplasmic_pulling.toml", 900.0)
-picture, tables = draw_mechanism(study, runs, "cytoplasmic pulling")
+picture, tables = draw_mechanism(study, runs, "cytoplasmic pulling", "centres in about 5 min and aligns")
 record_course(study, tables, "about 5 min", "with the centring")
 record_shape(study, tables)
 for name, column in (("among the anterior fibers", "flow_in_anterior_asters_x"), ("beside the PNC", "flow_anterior_x")):

@@ -14,6 +14,7 @@ runs = {"free sliding": study.runs("pushing_free_sliding", "pushing_free_sliding
 picture, axes = plt.subplots(1, 2, figsize=(11, 4), constrained_layout=True, sharey=True)
 for axis, (name, folders) in zip(axes, runs.items()):
     tables = [study.observe(run) for run in folders]
-    draw_end_forces(axis, tables, f"{name}, {study.options.fibers} microtubules")
+    draw_end_forces(axis, tables, PAPER[name])
+    axis.set_xlabel(f"time (min): {name}, {study.options.fibers} microtubules")
     record_end_forces(study, name, tables, PAPER[name])
 study.finish(picture)

@@ -7,9 +7,9 @@ import numpy as np
 
 from drawing import draw_course, draw_plane
 from pushing import TURNOVER_TIMES, draw_end_forces, no_sliding_runs, record_end_forces
-from study import Study, centring_time, first_time, mean_over, minutes, rotation_time
+from study import Study, centring_time, first_time, mean_over, minutes, rotation_time, seed_labels
 
-PAPER = {3: ("15 min", 3.0, (14.8, 14.3, 0.97)), 5: ("8 min", 3.5, (19.3, 17.7, 0.92)), 10: ("8 min", 1.6, (23.3, 19.3, 0.82))}
+PAPER = {3: (15, 3.0, (14.8, 14.3, 0.97)), 5: (8, 3.5, (19.3, 17.7, 0.92)), 10: (8, 1.6, (23.3, 19.3, 0.82))}
 
 study = Study("figure12_14", __doc__)
 picture, axes = plt.subplots(3, 3, figsize=(13, 10), constrained_layout=True)
@@ -19,9 +19,10 @@ for (plane, course, forces), turnover_time in zip(axes.T, TURNOVER_TIMES):
     with study.flow(runs[0], study.times(runs[0])[-1]) as flow:
         draw_plane(plane, flow)
     plane.set_title(f"turnover time {turnover_time} s, {study.options.fibers} microtubules")
-    draw_course(course, tables)
-    draw_end_forces(forces, tables, "")
-    name, (centring, ratio, force) = f"turnover {turnover_time} s", PAPER[turnover_time]
+    name, (paper_minutes, ratio, force) = f"turnover {turnover_time} s", PAPER[turnover_time]
+    centring = f"{paper_minutes} min"
+    draw_course(course, tables, seed_labels(runs), f"centres in {centring}, aligns in {paper_minutes * ratio:.0f} min")
+    draw_end_forces(forces, tables, force)
     times = np.array([(centring_time(t, 2.0), rotation_time(t)) for t in tables])
     study.record(f"{name}: time to within 2 um of the centre", centring, ", ".join(minutes(c, t) for (c, _), t in zip(times, tables)))
     study.record(f"{name}: time to pass the centre", centring, ", ".join(minutes(first_time(t["time"], t["pnc_x"] <= 0), t) for t in tables))

@@ -3,12 +3,13 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from drawing import draw_course, draw_plane, draw_space
-from study import centring_time, mean_over, minutes, rotation_time
+from drawing import draw_course, draw_plane, draw_space, draw_tension_key
+from study import centring_time, mean_over, minutes, rotation_time, seed_labels
 
 
-def draw_mechanism(study, runs, title):
-    """The picture of one mechanism; the space and flow of the first run. Returns its tables of observables."""
+def draw_mechanism(study, runs, title, paper):
+    """The picture of one mechanism, with what the paper says of it; the space and flow of the first run. Returns its tables
+    of observables."""
     tables = [study.observe(run) for run in runs]
     figure = plt.figure(figsize=(12, 7), constrained_layout=True)
     figure.suptitle(f"{title}, {study.options.fibers} microtubules")
@@ -16,8 +17,9 @@ def draw_mechanism(study, runs, title):
     times = study.times(runs[0])
     background = figure.add_subplot(grid[0, :3], facecolor="0.25", xticks=[], yticks=[])
     stamp = draw_space(figure.add_subplot(grid[0, :3], projection="3d"), runs[0], times[-1])
+    draw_tension_key(background, 1.0)
     background.text(0.02, 0.04, stamp, color="white", transform=background.transAxes, fontsize=9)
-    draw_course(figure.add_subplot(grid[0, 3:]), tables, [f"seed {seed}" for seed in study.options.seeds])
+    draw_course(figure.add_subplot(grid[0, 3:]), tables, seed_labels(runs), paper)
     for i, part in enumerate((0.08, 0.5, 1.0)):
         with study.flow(runs[0], part * times[-1]) as flow:
             draw_plane(figure.add_subplot(grid[1, 2 * i:2 * i + 2]), flow)

@@ -13,7 +13,7 @@ import argparse
 import csv
 import json
 import os
-import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -29,21 +29,50 @@ REPOSITORY = Path(__file__).resolve().parents[1]
 SCENES = REPOSITORY / "scenes"
 
 
+def number(least, of=int):
+    """For argparse: a finite number, not below `least`."""
+    def read(word):
+        value = of(word)
+        if not least <= value < float("inf"):
+            raise argparse.ArgumentTypeError(f"{word} is not a number from {least:g} on")
+        return value
+    read.__name__ = "number"
+    return read
+
+
+def setting(word):
+    """For argparse: KEY=VALUE."""
+    if "=" not in word:
+        raise argparse.ArgumentTypeError(f"{word} is not KEY=VALUE")
+    return word
+
+
 def parse_options(description):
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--output", type=Path, default=Path("study-results"), help="folder of runs, pictures, records")
     parser.add_argument("--program", default=str(REPOSITORY / "build/release/asterflow"), help="the asterflow to run")
     parser.add_argument("--quick", action="store_true", help="few fibers, short, one seed: does it all work?")
-    parser.add_argument("--fibers", type=int, help="microtubules, instead of the paper's 600")
-    parser.add_argument("--end-time", type=float, help="s, at most, of every run")
-    parser.add_argument("--seeds", type=int, nargs="+", help="instead of 1 2 3")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a scene key of all runs; part of their names")
+    parser.add_argument("--fibers", type=number(2), help="microtubules, instead of the paper's 600")
+    parser.add_argument("--end-time", type=number(0.1, float), help="s, at most, of every run")
+    parser.add_argument("--seeds", type=number(0), nargs="+", help="instead of 1 2 3")
+    parser.add_argument("--set", action="append", type=setting, default=[], metavar="KEY=VALUE",
+                        help="a scene key of all runs; part of their names")
     parser.add_argument("--drawing-only", action="store_true", help="draw what has been run so far, run nothing")
     options = parser.parse_args()
     options.fibers = options.fibers or (24 if options.quick else 600)
     options.seeds = options.seeds or ([1] if options.quick else [1, 2, 3])
     options.end_time = options.end_time or (20.0 if options.quick else 1e9)
+    try:
+        (options.output / "runs").mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        parser.error(f"--output: {error.strerror}: {error.filename}")
+    if not options.drawing_only and not shutil.which(options.program):
+        parser.error(f"--program: {options.program} is not a program; build it (README) or say where it is")
     return options
+
+
+class Failed(SystemExit):
+    """What asterflow says when it fails. Ends a study with that line."""
 
 
 class Study:
@@ -51,24 +80,32 @@ class Study:
         self.figure = figure
         self.options = parse_options(description)
         self.folder = self.options.output
-        (self.folder / "runs").mkdir(parents=True, exist_ok=True)
         self.records = []
 
     def asterflow(self, *words):
         environment = os.environ | {"ASTERFLOW_PYTHON": "none"}  # the studies draw
-        done = subprocess.run([self.options.program, *map(str, words)], env=environment, text=True, capture_output=True)
+        try:
+            done = subprocess.run([self.options.program, *map(str, words)], env=environment, text=True, capture_output=True)
+        except OSError as error:
+            sys.exit(f"--program {self.options.program}: {error.strerror}")
         if done.returncode != 0:
-            raise RuntimeError(f"asterflow {' '.join(map(str, words))}: {done.stderr.strip().splitlines()[-1]}")
+            said = done.stderr.strip().splitlines() or [f"ended with {done.returncode}"]
+            raise Failed(f"{said[-1]} (asterflow {' '.join(map(str, words))})")
         return done.stdout
+
+    def folder_of(self, name, seed):
+        chosen = "".join("-" + word.removeprefix("run.") for word in self.options.set)
+        quick = "-quick" if self.options.quick else ""
+        return self.folder / "runs" / f"{name}{chosen}{quick}-n{self.options.fibers}-seed{seed}"
 
     def run(self, name, scene, end_time, seed=1, **changes):
         """Folder of the run of a scene to end_time (s), started or resumed as needed. `changes`: scene keys with __ for
         the dot, e.g. pushing__minimal_catastrophe_rate=0.1. What stops a run early is said and kept with it."""
-        fibers = self.options.fibers
-        chosen = "".join("-" + re.sub(r"^.*\.(?=\w+=)", "", setting) for setting in self.options.set)
-        folder = self.folder / "runs" / f"{name}{chosen}-n{fibers}-seed{seed}"
+        fibers, folder = self.options.fibers, self.folder_of(name, seed)
         end_time = min(end_time, self.options.end_time)
         if self.options.drawing_only:
+            if not (folder / "trajectory.h5").exists():
+                sys.exit(f"{self.figure}: {folder} has not been run: leave out --drawing-only")
             return folder
         settings = {"aster.0.count": fibers // 2, "aster.1.count": fibers - fibers // 2, "run.seed": seed,
                     "output.picture": "false"}
@@ -83,16 +120,20 @@ class Study:
                 self.asterflow("run", SCENES / scene, "-o", folder, *words, "--set", f"run.end_time={end_time}")
             elif self.times(folder)[-1] < end_time:
                 self.asterflow("resume", folder, "--set", f"run.end_time={end_time}")
-        except RuntimeError as error:
+            (folder / "stopped.txt").unlink(missing_ok=True)
+        except Failed as error:
+            if not (folder / "trajectory.h5").exists():
+                raise
             print(error, file=sys.stderr)
             (folder / "stopped.txt").write_text(f"{error}\n")
         return folder
 
     def runs(self, name, scene, end_time, **changes):
         """The same with every seed; with --drawing-only those that have been run."""
-        folders = [self.run(name, scene, end_time, seed, **changes) for seed in self.options.seeds]
-        is_there = [(folder / "trajectory.h5").exists() for folder in folders]
-        return [f for f, there in zip(folders, is_there) if there] if self.options.drawing_only and any(is_there) else folders
+        seeds = self.options.seeds
+        if self.options.drawing_only:
+            seeds = [seed for seed in seeds if (self.folder_of(name, seed) / "trajectory.h5").exists()] or seeds[:1]
+        return [self.run(name, scene, end_time, seed, **changes) for seed in seeds]
 
     @staticmethod
     def times(run):
@@ -121,7 +162,8 @@ class Study:
         return h5py.File(file)
 
     def record(self, quantity, paper, ours, note=""):
-        """A line of the table paper / asterflow; numbers are compared, words are shown."""
+        """A line of the table paper / asterflow; numbers are compared, words are shown. Not a number: the run is too short."""
+        ours, note = ("not measured" if str(word) == "nan" else word for word in (ours, note))
         self.records.append({"figure": self.figure, "quantity": quantity, "paper": paper, "asterflow": ours, "note": note})
 
     def finish(self, picture):
@@ -136,6 +178,11 @@ class Study:
         (self.folder / f"{self.figure}.json").write_text(
             json.dumps({"figure": self.figure, "settings": settings, "records": self.records}, indent=1))
         print(path)
+
+
+def seed_labels(runs):
+    """'seed 1' ... of runs of Study.runs."""
+    return [run.name.rpartition("-")[2].replace("seed", "seed ") for run in runs]
 
 
 def first_time(times, condition):

@@ -35,6 +35,24 @@ class Studies(CommandTest):
         longer = self.study("figure06", "--fibers", 6, "--end-time", 12)
         self.assertIn("not within 0.2 min", longer["time to within 1 um of the centre"])
 
+    def test_bad_options_are_refused_in_one_line(self):
+        def last_line(*options):
+            done = subprocess.run([sys.executable, STUDIES / "figure06.py", "--program", ASTERFLOW, "--output", self.folder,
+                                   "--quick", *options], capture_output=True, text=True, timeout=60)
+            self.assertNotEqual(done.returncode, 0, options)
+            self.assertNotIn("Traceback", done.stderr)
+            return done.stderr.splitlines()[-1]
+
+        for options, words in ((("--program", "/nowhere/asterflow"), "/nowhere/asterflow is not a program"),
+                               (("--output", "/proc/nowhere"), "--output: No such file or directory"),
+                               (("--fibers", "0"), "--fibers: 0 is not a number from 2 on"),
+                               (("--end-time", "nan"), "--end-time: nan is not a number from 0.1 on"),
+                               (("--seeds", "-1"), "--seeds: -1 is not"),
+                               (("--set", "accuracy"), "accuracy is not KEY=VALUE"),
+                               (("--set", "run.colour=3"), 'unknown key "colour"'),
+                               (("--drawing-only",), "has not been run: leave out --drawing-only")):
+            self.assertIn(words, last_line(*options))
+
     def test_a_plus_end_is_back_at_the_cortex_after_the_expected_time(self):
         sys.path.insert(0, str(STUDIES))
         from straight_pulling import return_time
