@@ -6,11 +6,13 @@ namespace {
 
 constexpr double two_pi = 6.283185307179586;
 
-// Largest |j2| such that (j1, j2) is inside the band, -1 if there is none.
+// Largest |j2| such that (j1, j2) is inside the band, -1 if there is none. Modes on the band are left out, so that rounding
+// decides alike wherever this is compiled into.
 inline int partner_modes(double band, int j1, int n1, int n2, int most) {
   double const k1 = two_pi * j1 / n1;
   double const rest = band * band - k1 * k1;
-  return rest < 0.0 ? -1 : smaller(most, static_cast<int>(std::sqrt(rest) * n2 / two_pi));
+  constexpr double below = 1.0 - 1e-12;
+  return rest < 0.0 ? -1 : smaller(most, static_cast<int>(below * std::sqrt(rest) * n2 / two_pi));
 }
 
 // Rows of the spectrum, from used_low[1]: whole pairs of vectors, as the x sweeps transform them.

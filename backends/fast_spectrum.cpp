@@ -35,7 +35,8 @@ SymbolTable<Real> make_symbol(int const (&nodes)[3], double band, int lanes, std
   table.band = band;
   std::vector<double> by_direction[3];
   for (int d = 0; d < 3; ++d) {
-    table.modes[d] = static_cast<int>(band * nodes[d] / (2.0 * M_PI));
+    // Below the band, not on it: the sweeps compare wave numbers with it too, each with its own rounding.
+    table.modes[d] = static_cast<int>((1.0 - 1e-12) * band * nodes[d] / (2.0 * M_PI));
     for (int j = 0; j <= table.modes[d]; ++j) {
       double const window = correction(2.0 * M_PI * j / nodes[d]);
       by_direction[d].push_back(1.0 / (nodes[d] * window * window));
