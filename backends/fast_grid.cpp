@@ -39,7 +39,7 @@ template <class Real>
 GridWindow<Real>::GridWindow(int width, double shape, bool sums_in_double)
     : width_(width),
       padded_(width <= 8 ? 8 : width <= 12 ? 12 : 16),
-      degree_(width + 3),
+      degree_(width + 1),
       shape_(shape),
       sums_in_double_(sums_in_double) {
   KaiserBessel const window(shape);

@@ -11,14 +11,15 @@ constexpr double gradient_loss = 0.1;
 // Fitted to measured errors of uniform and clustered points, see docs/summation.md.
 FastParameters fast_parameters(std::string_view kernel, double accuracy, bool gradient) {
   double const digits = -std::log10(std::clamp(gradient ? gradient_loss * accuracy : accuracy, 1e-12, 1e-3));
-  constexpr double oversampling = 1.35;
   FastParameters p{};
   p.accuracy = accuracy;
-  p.split_shape = kernel == "stokeslet" ? 2.42 * digits + 3.4 : 2.5 * digits + (kernel == "rotlet" ? 3.65 : 3.4);
-  p.band = p.split_shape;
+  p.band = kernel == "stokeslet" ? 2.42 * digits + 2.4 : 2.5 * digits + (kernel == "rotlet" ? 2.4 : 2.65);
+  p.split_shape = p.band - 0.25;
+  // A mode near the end of the band carries little, so its alias may lie inside the main lobe of the grid window.
+  p.width = static_cast<int>(std::ceil(digits + 0.95));
+  double const oversampling = 1.28 - 0.12 * (p.width - digits - 1.0);
+  p.window_shape = M_PI * p.width * (0.73 + 0.55 * (oversampling - 1.28));
   p.nodes_per_cutoff = p.band / M_PI * oversampling;
-  p.width = static_cast<int>(std::ceil(1.15 * digits + 1.09));
-  p.window_shape = M_PI * p.width * (1.0 - 0.5 / oversampling);
   p.local_tolerance = 0.5 * std::pow(10.0, -digits);
   p.single = digits <= 6.05;
   p.sums_in_double = digits > 4.53;
