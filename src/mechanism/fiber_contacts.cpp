@@ -68,62 +68,47 @@ void FiberContacts::let_go(TipLoad const& free_tip) {
   fibers_.prepare_again(fiber_, around_.maps);
 }
 
-void FiberContacts::hold_plus_end(ConstPoints u) {
-  TipLoad& load = fibers_.plan(fiber_).tip;
-  if (!load.stiffness.isZero(0.0)) return;
-  Vec3d const position = fibers_.tip_answer(fiber_, u, motion_).position;
+void FiberContacts::answer(ConstPoints u) {
+  fibers_.node_answer(fiber_, u, motion_, positions_);
+  plus_end_ = fibers_.tip_answer(fiber_, u, motion_).position;
+}
+
+// The loads where the fiber is; false: no contacts.
+bool FiberContacts::find_loads(TipLoad const& free_tip) {
+  Fibers::Plan& plan = fibers_.plan(fiber_);
+  auto const& basis = fiber_basis(fibers_.properties(fiber_).n_node);
+  double const length = fibers_.predicted_shape(fiber_).length;
+  plan.node_loads.assign(positions_.size(), {});
+  plan.tip = free_tip;
+  node_touches_.clear();
+  plus_end_touches_.clear();
   bool any = false;
-  for_walls(position, fibers_.plan(fiber_).length, [&](Wall const& wall) {
+  for (std::size_t i = 0; i < positions_.size(); ++i)
+    for_walls(positions_[i], basis.gauss.nodes[i] * length, [&](Wall const& wall) {
+      Push push = this->push(around_.spec.fiber_force, wall);
+      push.force += push.stiffness * (positions_[i] - predicted_[i]);
+      NodeLoad& load = plan.node_loads[i];
+      load.force += push.force;
+      load.stiffness += push.stiffness;
+      load.is_internal = is_own(wall);
+      if (wall.body >= 0 && !is_own(wall)) node_touches_.push_back({push, static_cast<std::size_t>(wall.body), i});
+      any = true;
+    });
+  if (!free_tip.stiffness.isZero(0.0)) return any;
+  for_walls(plus_end_, plan.length, [&](Wall const& wall) {
     if (is_own(wall)) return;
     Push const push = this->push(plus_end_length * around_.spec.fiber_force, wall);
-    load.force += push.force;
-    load.stiffness += push.stiffness;
-    load.anchor = position;
+    plan.tip.force += push.force;
+    plan.tip.stiffness += push.stiffness;
+    plan.tip.anchor = plus_end_;
     if (wall.body >= 0) plus_end_touches_.push_back({push, static_cast<std::size_t>(wall.body), 0});
     any = true;
   });
-  if (any) fibers_.prepare_again(fiber_, around_.maps);
-}
-
-// Loads at those positions; false: none.
-bool FiberContacts::find_nodes(ConstPoints positions) {
-  auto const& basis = fiber_basis(fibers_.properties(fiber_).n_node);
-  double const length = fibers_.predicted_shape(fiber_).length;
-  loads_.assign(positions.size(), {});
-  node_touches_.clear();
-  bool any = false;
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    for_walls(positions[i], basis.gauss.nodes[i] * length, [&](Wall const& wall) {
-      Push push = this->push(around_.spec.fiber_force, wall);
-      push.force += push.stiffness * (positions[i] - predicted_[i]);
-      loads_[i].force += push.force;
-      loads_[i].stiffness += push.stiffness;
-      loads_[i].is_internal = is_own(wall);
-      if (wall.body >= 0 && !is_own(wall))
-        node_touches_.push_back({push, static_cast<std::size_t>(wall.body), i});
-      any = true;
-    });
   return any;
 }
 
-void FiberContacts::hold_nodes(ConstPoints u) {
-  PointArray before(positions_.size());
-  fibers_.node_answer(fiber_, u, motion_, positions_);
-  for (int pass = 0; pass < most_passes; ++pass) {
-    bool const any = find_nodes(positions_);
-    if (!any && fibers_.plan(fiber_).node_loads.empty()) return;
-    fibers_.plan(fiber_).node_loads = loads_;
-    fibers_.prepare_again(fiber_, around_.maps);
-    before = positions_;
-    fibers_.node_answer(fiber_, u, motion_, positions_);
-    double change = 0.0;
-    for (std::size_t i = 0; i < positions_.size(); ++i) change = std::max(change, norm(positions_[i] - before[i]));
-    if (change < 1e-3 * around_.spec.range) return;
-  }
-}
-
 // Keeps the forces of bodies that do not hold the fiber as the local answer has them.
-std::vector<BodyReaction> FiberContacts::settle(ConstPoints u) {
+std::vector<BodyReaction> FiberContacts::settle() {
   std::vector<BodyReaction> reactions;
   if (plus_end_touches_.empty() && node_touches_.empty()) return reactions;
   auto const react = [&](Touch const& touch, Vec3d place, Vec3d force, double length) {
@@ -136,7 +121,7 @@ std::vector<BodyReaction> FiberContacts::settle(ConstPoints u) {
     reactions.push_back({holder, Vector6::Zero(), around_.maps[holder].spring_resistance(arm(holder), stiffness)});
   };
   Fibers::Plan& plan = fibers_.plan(fiber_);
-  Vec3d const plus_end_moved = fibers_.tip_answer(fiber_, u, motion_).position - plan.tip.anchor;
+  Vec3d const plus_end_moved = plus_end_ - plan.tip.anchor;
   for (Touch const& touch : plus_end_touches_) {
     Vec3d const loss = touch.stiffness * plus_end_moved;
     plan.tip.force -= loss;
@@ -155,9 +140,23 @@ std::vector<BodyReaction> FiberContacts::settle(ConstPoints u) {
 
 std::vector<BodyReaction> FiberContacts::hold(ConstPoints u, TipLoad const& free_tip) {
   let_go(free_tip);
-  hold_plus_end(u);
-  hold_nodes(u);
-  return settle(u);
+  answer(u);
+  PointArray before;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    bool const had_loads = !fibers_.plan(fiber_).node_loads.empty();
+    if (!find_loads(free_tip) && !had_loads) {
+      fibers_.plan(fiber_).node_loads.clear();
+      return {};
+    }
+    fibers_.prepare_again(fiber_, around_.maps);
+    before = positions_;
+    double change = 0.0;
+    Vec3d const plus_end_before = plus_end_;
+    answer(u);
+    for (std::size_t i = 0; i < positions_.size(); ++i) change = std::max(change, norm(positions_[i] - before[i]));
+    if (std::max(change, norm(plus_end_ - plus_end_before)) < 1e-3 * around_.spec.range) break;
+  }
+  return settle();
 }
 
 }  // namespace asterflow

@@ -1,8 +1,8 @@
 #pragma once
 // What steric repulsion does to one fiber in a step: at its hydrodynamic nodes and, as one um of it, at a plus end that nothing
-// else holds. The nodes in contact are found by repeating the fiber's local answer until those that repel are those that
-// touch. The force is then linear in the step where the cortex or the fiber's own body exerts it; other bodies exert
-// the force of that local answer, and feel the opposite.
+// else holds. What is in contact, and the wall there, is found by repeating the fiber's local answer until it rests. The force
+// is then linear in the step where the cortex or the fiber's own body exerts it; other bodies exert the force of that local
+// answer, and feel the opposite.
 
 #include "base/rigid.hpp"
 #include "fiber/fibers.hpp"
@@ -60,10 +60,9 @@ class FiberContacts {
   bool find_wall(int body, Vec3d position, Wall& wall) const;
   Push push(double strength, Wall const& wall) const;
   void let_go(TipLoad const& free_tip);
-  void hold_plus_end(ConstPoints u);
-  bool find_nodes(ConstPoints positions);
-  void hold_nodes(ConstPoints u);
-  std::vector<BodyReaction> settle(ConstPoints u);
+  void answer(ConstPoints u);
+  bool find_loads(TipLoad const& free_tip);
+  std::vector<BodyReaction> settle();
 
   FiberSurroundings const& around_;
   Fibers& fibers_;
@@ -72,7 +71,7 @@ class FiberContacts {
   Vector6 motion_;             // of that body
   PointArray predicted_;       // [n_node] um
   PointArray positions_;       // [n_node] um, local answer
-  std::vector<NodeLoad> loads_;
+  Vec3d plus_end_;             // um, the same
   std::vector<Touch> plus_end_touches_, node_touches_;  // with bodies that do not hold the fiber
 };
 

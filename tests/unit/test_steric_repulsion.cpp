@@ -246,6 +246,47 @@ TEST(StericRepulsion, body_feels_what_it_does_to_a_fiber_of_others) {
   EXPECT_GT(largest_tip, 0.5);
 }
 
+TEST(StericRepulsion, of_a_plus_end_that_slides_on_a_body_converges_at_second_order) {
+  auto const place = [&](double dt) {  // of the plus end
+    auto const simulation = simulated(R"(
+      [fluid]
+      viscosity = 0.7
+      [[body]]
+      name = "a"
+      shape = "ellipsoid"
+      semi_axes = [1.5, 1.0, 1.2]
+      position = [-2.6, 0.1, 0.0]
+      force = [3.0, 0.5, 0.0]
+      order = 8
+      [[body]]
+      shape = "sphere"
+      radius = 1.1
+      position = [2.9, 0.0, 0.2]
+      force = [-4.0, 0.3, 0.2]
+      order = 8
+      [[fiber]]
+      body = "a"
+      position = [-1.05, 0.1, 0.0]
+      direction = [1.0, 0.1, 0.05]
+      length = 2.4
+      minus_end = "hinged"
+      bending_rigidity = 5.0
+      [steric_repulsion]
+      range = 0.1
+      fiber_force = 20.0
+      fiber_body = true
+      [run]
+      interactions = "local"
+      adaptive = false
+      time_step = )" + std::to_string(dt), 1.2);
+    EXPECT_GT(norm(simulation->fibers().ends(0).plus_end), 0.5);
+    return plus_end(simulation->fibers().shape(0));
+  };
+  Vec3d const rough = place(0.01), middle = place(0.005), fine = place(0.0025);
+  EXPECT_LT(norm(middle - fine), norm(rough - middle) / 3.5);  // a quarter; walls that were found once a step: 0.6
+  EXPECT_LT(norm(middle - fine), 1e-5);                         // um
+}
+
 TEST(StericRepulsion, of_wrong_sign_is_refused) {
   std::string text = pressed_scene("");
   text.replace(text.find("range = 0.1"), 11, "range = -0.1");
