@@ -48,6 +48,7 @@ std::string way_to_look(Simulation const& simulation, std::filesystem::path cons
 void print_no_slip(Simulation const& simulation) {
   auto const residual = no_slip_of(simulation, {simulation.time(), simulation.frame()});
   if (!residual) return;
+  if (residual->is_at_rest()) return fmt::print(stderr, "at rest: no speed at a surface is above 1e-12 um/s\n");
   fmt::print(stderr, "no slip between the nodes: {:.1e} of {:.3g} um/s (bodies {:.1e}, periphery {:.1e} um/s)\n",
              residual->relative(), residual->speed, residual->bodies, residual->periphery);
 }

@@ -29,7 +29,7 @@ double largest(ConstPoints velocities) {
 
 }  // namespace
 
-double NoSlipResidual::relative() const { return speed > 0.0 ? std::max(periphery, bodies) / speed : 0.0; }
+double NoSlipResidual::relative() const { return is_at_rest() ? 0.0 : std::max(periphery, bodies) / speed; }
 
 NoSlipResidual no_slip_residual(StoredFlow const& flow) {
   Radiation const& radiation = flow.radiation();

@@ -11,6 +11,7 @@ struct NoSlipResidual {
   double periphery = 0.0;  // um/s
   double bodies = 0.0;     // um/s
   double speed = 0.0;      // um/s, largest of the flow that meets a surface and of the bodies' surfaces
+  bool is_at_rest() const { return speed < 1e-12; }  // um/s: rounding alone
   double relative() const;  // the larger residual over that speed; 0 at rest
 };
 

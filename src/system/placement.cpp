@@ -16,6 +16,14 @@ PlacedSurface placed(std::shared_ptr<Shape const> shape, RigidPose const& pose) 
 
 std::string place_words(Vec3d x) { return fmt::format("at [{:.4g}, {:.4g}, {:.4g}] um", x.x, x.y, x.z); }
 
+// What may hold two objects apart, after a complaint; `holds`: the key of the repulsion between them.
+std::string remedy(Scene const& scene, bool StericRepulsionSpec::* holds, char const* key, char const* force) {
+  auto const& repulsion = scene.steric_repulsion;
+  if (!repulsion) return fmt::format(" ([steric_repulsion] with {} = true may hold it back)", key);
+  if (!((*repulsion).*holds)) return fmt::format(" (steric_repulsion.{} = true may hold it back)", key);
+  return fmt::format(" (a larger steric_repulsion.{} may hold it back)", force);
+}
+
 }  // namespace
 
 std::string fiber_words(Scene const& scene, std::size_t fiber) {
@@ -44,7 +52,7 @@ std::string Placement::complaint(std::span<RigidPose const> poses) const {
     };
     PlacedSurface const body = placed(bodies_[b], poses[b]);
     if (periphery_ && !(find_contact(body, {.shape = periphery_, .encloses = true}).gap > 0))
-      return words("touches the periphery,");
+      return words("touches the periphery,") + remedy(scene_, &StericRepulsionSpec::body_cortex, "body_cortex", "body_force");
     for (std::size_t a = 0; a < b; ++a) {
       if (norm(poses[a].position - poses[b].position) > bodies_[a]->size() + bodies_[b]->size()) continue;
       if (!(find_contact(placed(bodies_[a], poses[a]), body).gap > 0))
@@ -57,12 +65,13 @@ std::string Placement::complaint(std::span<RigidPose const> poses) const {
 std::string Placement::complaint(std::size_t fiber, ConstPoints positions, std::span<RigidPose const> poses) const {
   for (Vec3d x : positions) {
     if (checks_fibers_inside_ && !(periphery_->shell_point(x).rho <= 1 + touching))
-      return fmt::format("{} reaches outside the periphery {}", fiber_words(scene_, fiber), place_words(x));
+      return fmt::format("{} reaches outside the periphery {}{}", fiber_words(scene_, fiber), place_words(x),
+                         remedy(scene_, &StericRepulsionSpec::fiber_cortex, "fiber_cortex", "fiber_force"));
     for (std::size_t b = 0; b < poses.size(); ++b) {
       Vec3d const in_body = poses[b].rotation.transpose() * (x - poses[b].position);
       if (!(bodies_[b]->shell_point(in_body).rho >= 1 - touching))
-        return fmt::format("{} reaches into body \"{}\" {}", fiber_words(scene_, fiber), scene_.bodies[b].name,
-                           place_words(x));
+        return fmt::format("{} reaches into body \"{}\" {}{}", fiber_words(scene_, fiber), scene_.bodies[b].name,
+                           place_words(x), remedy(scene_, &StericRepulsionSpec::fiber_body, "fiber_body", "fiber_force"));
     }
   }
   return {};

@@ -43,3 +43,8 @@ TEST(NoSlip, has_no_periphery_in_open_fluid) {
   EXPECT_EQ(residual.periphery, 0.0);
   EXPECT_LT(residual.relative(), 1e-3);
 }
+
+TEST(NoSlip, is_no_ratio_of_rounding_errors_at_rest) {
+  EXPECT_EQ((NoSlipResidual{.periphery = 1e-17, .bodies = 0.0, .speed = 5e-16}).relative(), 0.0);
+  EXPECT_EQ((NoSlipResidual{.periphery = 2e-8, .bodies = 1e-9, .speed = 1e-6}).relative(), 0.02);
+}

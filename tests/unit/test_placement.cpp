@@ -50,6 +50,7 @@ TEST(Placement, names_the_fiber_that_leaves_and_keeps_the_last_state) {
   Simulation simulation(scene_of(towards_the_wall));
   std::string const reason = reason_to_stop(simulation);
   EXPECT_NE(reason.find("[[fiber]] #1 on body \"ball\" reaches outside the periphery"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("([steric_repulsion] with fiber_cortex = true may hold it back)"), std::string::npos) << reason;
   EXPECT_NE(reason.find("t = 0."), std::string::npos) << reason;
   EXPECT_GT(simulation.time(), 0.0);
   EXPECT_LT(plus_end(simulation.fibers().shape(0)).x, 4.0 * (1 + 1e-3));
