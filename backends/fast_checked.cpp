@@ -19,6 +19,7 @@ namespace {
 
 constexpr double strictest = 1e-12;   // fast sums cannot do better
 constexpr std::size_t n_checked = 96;  // targets
+constexpr double roughly_checked = 1e-5;  // coarser ones are compared with direct sums in float
 constexpr double margin = 0.3;         // of the next accuracy, where one was missed
 
 double square(ConstPoints points) {
@@ -68,11 +69,17 @@ class CheckedFast final : public FastEvaluator {
   };
   using Add = void (Evaluator::*)(ConstPoints strengths, Points result);
 
-  // Stricter until the error at the checked targets is what was asked for. `rows` points of the result per target.
+  // Stricter until the error at the checked targets is what was asked for. `rows` points of the result per target. Where exact
+  // sums in float say that it is not, they are done in double first: they may be what is wrong.
   void add_checked(Add add, std::size_t rows, ConstPoints strengths, Points result) {
     PointArray sum(result.size());
     (used().*add)(strengths, sum);
     for (double missed = excess(add, rows, strengths, sum); missed > options_.largest_excess; missed = excess(add, rows, strengths, sum)) {
+      if (is_rough_) {
+        is_rough_ = false;
+        make_exact(fine_accuracy());
+        continue;
+      }
       if (accuracy_ < strictest) break;  // direct sums
       tighten(missed);
       std::fill(sum.begin(), sum.end(), Vec3d{});
@@ -95,7 +102,6 @@ class CheckedFast final : public FastEvaluator {
     std::vector<double> sorted = sizes;
     auto const eighth = sorted.begin() + static_cast<long>(sizes.size() / 8);
     std::nth_element(sorted.begin(), eighth, sorted.end(), std::greater<>());
-    PointArray some;
     for (bool is_large : {true, false}) {
       std::vector<std::size_t> group;
       for (std::size_t i = 0; i < sizes.size(); ++i)
@@ -103,10 +109,18 @@ class CheckedFast final : public FastEvaluator {
       std::size_t const n = std::min(group.size(), n_checked / 2);
       for (std::size_t k = 0; k < n; ++k) {
         checked_.push_back({group[(2 * k + 1) * group.size() / (2 * n)], static_cast<double>(group.size()) / static_cast<double>(n)});
-        some.push_back(targets()[checked_.back().target]);
       }
     }
-    exact_ = make_direct(kernel_, {.accuracy = std::min(1e-8, 0.01 * options_.accuracy), .gradient = options_.gradient});
+    is_rough_ = options_.accuracy >= roughly_checked;
+    make_exact(is_rough_ ? 0.1 * options_.accuracy : fine_accuracy());
+  }
+
+  double fine_accuracy() const { return std::min(1e-8, 0.01 * options_.accuracy); }
+
+  void make_exact(double accuracy) {
+    PointArray some;
+    for (Checked const& checked : checked_) some.push_back(targets()[checked.target]);
+    exact_ = make_direct(kernel_, {.accuracy = accuracy, .gradient = options_.gradient});
     exact_->set_points(sources_, some, normals_);
   }
 
@@ -150,6 +164,7 @@ class CheckedFast final : public FastEvaluator {
   std::unique_ptr<FastEvaluator> first_;
   std::unique_ptr<Evaluator> stricter_;  // in place of first_ where that was not enough
   std::unique_ptr<Evaluator> exact_;     // at the checked targets
+  bool is_rough_ = false;                // exact_ sums in float
 };
 
 template <FastInstructions instructions>
