@@ -13,7 +13,7 @@ FastParameters fast_parameters(std::string_view kernel, double accuracy, bool gr
   double const digits = -std::log10(std::clamp(gradient ? gradient_loss * accuracy : accuracy, 1e-12, 1e-3));
   FastParameters p{};
   p.accuracy = accuracy;
-  p.band = kernel == "stokeslet" ? 2.36 * digits + 3.0 : 2.5 * digits + (kernel == "stresslet" ? 2.9 : 3.4);
+  p.band = kernel == "stokeslet" ? 2.36 * digits + 3.0 : 2.5 * digits + (kernel == "stresslet" ? 3.2 : 3.4);
   p.split_shape = p.band - 0.25;
   // A mode near the end of the band carries little, so its alias may lie inside the main lobe of the grid window.
   p.width = static_cast<int>(std::ceil(digits + 0.95));
