@@ -5,6 +5,10 @@ else()
   set(kokkos_cache $ENV{HOME}/.cache/asterflow/kokkos)
 endif()
 find_package(Kokkos REQUIRED HINTS ${kokkos_cache})  # Kokkos_ROOT first, then what bootstrap built, then the system
+if(ASTERFLOW_DEVICE AND NOT ASTERFLOW_DEVICE IN_LIST Kokkos_DEVICES)
+  message(FATAL_ERROR "ASTERFLOW_DEVICE is ${ASTERFLOW_DEVICE}, but the Kokkos in ${Kokkos_DIR} is for ${Kokkos_DEVICES}: "
+    "let Kokkos_ROOT in the environment name the folder of one for ${ASTERFLOW_DEVICE}")
+endif()
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)

@@ -7,7 +7,8 @@ set_target_properties(asterflow_base PROPERTIES EXPORT_NAME base)
 set_target_properties(asterflow_backends PROPERTIES EXPORT_NAME backends)
 install(TARGETS asterflow_base asterflow_backends EXPORT asterflowTargets)
 install(TARGETS asterflow)
-install(PROGRAMS scripts/plot_drag.py scripts/plot_flow.py DESTINATION ${CMAKE_INSTALL_DATADIR}/asterflow)  # its pictures
+install(DIRECTORY scripts/ DESTINATION ${CMAKE_INSTALL_DATADIR}/asterflow USE_SOURCE_PERMISSIONS
+  FILES_MATCHING PATTERN "plot_*.py")  # its pictures
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/asterflow)
 install(EXPORT asterflowTargets NAMESPACE asterflow:: DESTINATION ${package_folder})
 
