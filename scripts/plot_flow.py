@@ -63,12 +63,12 @@ def draw_flow(file, axis, figure):
     figure.colorbar(image, ax=axis, label="speed in the plane (um/s)", shrink=0.75, pad=0.02)
     if finite.size and finite.max() > 0:
         blank = np.ma.masked_invalid(velocity)
-        axis.streamplot(first, second, blank[..., 0], blank[..., 1], color="white", linewidth=0.6, arrowsize=0.7,
-                        density=1.6)
+        axis.streamplot(first, second, blank[..., 0], blank[..., 1], color=(1, 1, 1, 0.4), linewidth=0.6, arrowsize=0.7,
+                        density=1.6)  # fainter than fibers without tension
     if "fiber" in file:
         segments, tension = fiber_segments(file, axes, normal, float(plane.split("=")[1]))
         limit = max(np.quantile(np.abs(tension), 0.98) if len(tension) else 0.0, 1e-12)
-        lines = LineCollection(segments, cmap="RdBu", linewidths=0.9)
+        lines = LineCollection(segments, cmap="RdBu", linewidths=1.2)
         lines.set_array(tension)
         lines.set_clim(-limit, limit)
         axis.add_collection(lines)
@@ -81,14 +81,17 @@ def draw_flow(file, axis, figure):
             if distance.min() < 0 < distance.max():  # else the plane misses it
                 axis.contour(first, second, distance, levels=[0], colors=color, linewidths=1.4, zorder=3)
     axis.set(xlim=(first[0], first[-1]), ylim=(second[0], second[-1]), aspect="equal", xlabel=f"{names[0]} (um)",
-             ylabel=f"{names[1]} (um)", title=f"{plane} um, t = {file['time'][()]:.4g} s")
+             ylabel=f"{names[1]} (um)", title=f"{plane.replace('=', ' = ')} um, t = {file['time'][()]:.4g} s")
 
 
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     with h5py.File(sys.argv[1]) as file:
-        figure, axis = plt.subplots(figsize=(10, 5.5), constrained_layout=True)
+        width, height = np.ptp(file["first"][:]), np.ptp(file["second"][:])
+        tall = min(max(7.5 * height / width + 1.0, 3.5), 8.5)
+        wide = min(max((tall - 1.0) * width / height + 2.5, 4.5), 10.0)
+        figure, axis = plt.subplots(figsize=(wide, tall), constrained_layout=True)
         draw_flow(file, axis, figure)
         figure.savefig(sys.argv[2], dpi=160)
 
