@@ -21,6 +21,7 @@ import numpy as np
 
 from straight import (CELL, CENTROSOME_RADIUS, GOLDEN_ANGLE, MEAN_LENGTH, PNC_RADIUS, SHORTEST, START, angle_to_axis, asters,
                       distance_to_cortex, turned)
+from study import number
 
 PULL, POLE_FACTOR = 3.0, 1.5  # pN, -
 CORTEX = np.array([25.0, 15.0, 15.0])  # um, semi-axes of the cell
@@ -161,21 +162,21 @@ def print_forces(options):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--sites", type=int, default=100)
+    parser.add_argument("--sites", type=number(1), default=100)
     parser.add_argument("--arrangement", choices=("even", "random"), default="even")
-    parser.add_argument("--reach", type=float, default=5.0, help="um")
-    parser.add_argument("--rate", type=float, default=1.0, help="1/s, of capture")
-    parser.add_argument("--plane-factor", type=float, default=0.5)
-    parser.add_argument("--residence", type=float, default=20.0, help="s")
-    parser.add_argument("--rescue", type=float, default=0.02, help="1/s")
-    parser.add_argument("--growth", type=float, default=0.5, help="um/s")
-    parser.add_argument("--shrinkage", type=float, default=0.5, help="um/s")
-    parser.add_argument("--opening", type=float, default=80.0, help="degrees")
-    parser.add_argument("--fibers", type=int, default=600)
-    parser.add_argument("--translation", type=float, default=1000.0, help="pN s/um")
-    parser.add_argument("--rotation", type=float, default=30000.0, help="pN um s")
-    parser.add_argument("--minutes", type=float, default=45.0)
-    parser.add_argument("--seeds", type=int, nargs="+", default=[1])
+    parser.add_argument("--reach", type=number(1e-9, float), default=5.0, help="um")
+    parser.add_argument("--rate", type=number(1e-9, float), default=1.0, help="1/s, of capture")
+    parser.add_argument("--plane-factor", type=number(0, float), default=0.5)
+    parser.add_argument("--residence", type=number(1e-9, float), default=20.0, help="s")
+    parser.add_argument("--rescue", type=number(0, float), default=0.02, help="1/s")
+    parser.add_argument("--growth", type=number(1e-9, float), default=0.5, help="um/s")
+    parser.add_argument("--shrinkage", type=number(1e-9, float), default=0.5, help="um/s")
+    parser.add_argument("--opening", type=number(0, float), default=80.0, help="degrees")
+    parser.add_argument("--fibers", type=number(2), default=600)
+    parser.add_argument("--translation", type=number(1e-9, float), default=1000.0, help="pN s/um")
+    parser.add_argument("--rotation", type=number(1e-9, float), default=30000.0, help="pN um s")
+    parser.add_argument("--minutes", type=number(0.1, float), default=45.0)
+    parser.add_argument("--seeds", type=number(0), nargs="+", default=[1])
     parser.add_argument("--held", type=float, nargs="+", help="um, places along the axis at which the PNC is held")
     options = parser.parse_args()
     print_forces(options) if options.held else print_courses(options)

@@ -15,7 +15,7 @@ import argparse
 import numpy as np
 
 from straight import MEAN_LENGTH, SHORTEST, START, angle_to_axis, asters, distance_to_cortex, turned
-from study import first_time
+from study import first_time, number
 
 RIGIDITY, STALL = 10.0, 4.4  # pN um^2, pN
 VISCOUS_PUSH = 7.0  # pN
@@ -54,15 +54,15 @@ def course(seed, options, dt=0.25):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--translation", type=float, default=1000.0, help="pN s/um")
-    parser.add_argument("--rotation", type=float, default=33000.0, help="pN um s")
+    parser.add_argument("--translation", type=number(1e-9, float), default=1000.0, help="pN s/um")
+    parser.add_argument("--rotation", type=number(1e-9, float), default=33000.0, help="pN um s")
     parser.add_argument("--law", choices=("static", "viscous"), default="static")
-    parser.add_argument("--turnover", type=float, default=5.0, help="s, 1 / f_min")
-    parser.add_argument("--growth", type=float, default=0.5, help="um/s, of growth and shrinkage")
-    parser.add_argument("--opening", type=float, default=80.0, help="degrees")
-    parser.add_argument("--fibers", type=int, default=600)
-    parser.add_argument("--minutes", type=float, default=60.0)
-    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
+    parser.add_argument("--turnover", type=number(1e-9, float), default=5.0, help="s, 1 / f_min")
+    parser.add_argument("--growth", type=number(1e-9, float), default=0.5, help="um/s, of growth and shrinkage")
+    parser.add_argument("--opening", type=number(0, float), default=80.0, help="degrees")
+    parser.add_argument("--fibers", type=number(2), default=600)
+    parser.add_argument("--minutes", type=number(0.1, float), default=60.0)
+    parser.add_argument("--seeds", type=number(0), nargs="+", default=[1, 2, 3])
     options = parser.parse_args()
     for seed in options.seeds:
         times, x, angle, push = course(seed, options)

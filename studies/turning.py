@@ -93,4 +93,7 @@ if __name__ == "__main__":
     parser.add_argument("--to", type=float, default=50.0, dest="end", help="degrees")
     options = parser.parse_args()
     for run in options.runs:
+        if not (run / "trajectory.h5").exists():
+            parser.error(f"{run} is not the folder of a run")
+    for run in options.runs:
         report(run, options.start, options.end)

@@ -36,12 +36,14 @@ class Studies(CommandTest):
         self.assertIn("not within 0.2 min", longer["time to within 1 um of the centre"])
 
     def test_bad_options_are_refused_in_one_line(self):
-        def last_line(*options):
-            done = subprocess.run([sys.executable, STUDIES / "figure06.py", "--program", ASTERFLOW, "--output", self.folder,
-                                   "--quick", *options], capture_output=True, text=True, timeout=60)
+        def refusal(script, *options):
+            done = subprocess.run([sys.executable, STUDIES / script, *options], capture_output=True, text=True, timeout=60)
             self.assertNotEqual(done.returncode, 0, options)
             self.assertNotIn("Traceback", done.stderr)
             return done.stderr.splitlines()[-1]
+
+        def last_line(*options):
+            return refusal("figure06.py", "--program", ASTERFLOW, "--output", self.folder, "--quick", *options)
 
         for options, words in ((("--program", "/nowhere/asterflow"), "/nowhere/asterflow is not a program"),
                                (("--output", "/proc/nowhere"), "--output: No such file or directory"),
@@ -52,6 +54,9 @@ class Studies(CommandTest):
                                (("--set", "run.colour=3"), 'unknown key "colour"'),
                                (("--drawing-only",), "has not been run: leave out --drawing-only")):
             self.assertIn(words, last_line(*options))
+        self.assertIn("--minutes: -3 is not", refusal("straight_pushing.py", "--minutes", "-3"))
+        self.assertIn("--sites: 0 is not", refusal("straight_pulling.py", "--sites", "0"))
+        self.assertIn("is not the folder of a run", refusal("turning.py", self.folder))
 
     def test_a_plus_end_is_back_at_the_cortex_after_the_expected_time(self):
         sys.path.insert(0, str(STUDIES))
