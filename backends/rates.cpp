@@ -22,9 +22,9 @@ struct KernelRates {
   std::array<double, 4> pair, plan;
 };
 constexpr std::array built_in{
-    KernelRates{"stokeslet", {0.254, 0.292, 0.555, 0.567}, {0.884, 0.882, 1.02, 1.11}},
-    KernelRates{"stresslet", {0.292, 0.332, 0.615, 0.64}, {0.98, 1.05, 1.18, 1.17}},
-    KernelRates{"rotlet", {0.238, 0.28, 0.533, 0.539}, {0.79, 0.784, 0.91, 1.03}}};
+    KernelRates{"stokeslet", {0.254, 0.292, 0.555, 0.567}, {0.814, 0.877, 0.853, 1.03}},
+    KernelRates{"stresslet", {0.292, 0.332, 0.615, 0.64}, {0.859, 0.911, 0.89, 1.09}},
+    KernelRates{"rotlet", {0.238, 0.28, 0.533, 0.539}, {0.763, 0.797, 0.742, 0.98}}};
 
 // Near the number where both sums cost the same, or enough of them to occupy a device.
 constexpr long n_direct = default_space_is_host ? 3000 : 60000, n_fast = default_space_is_host ? 9000 : 200000;
