@@ -150,12 +150,17 @@ std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps
   return drives;
 }
 
-// Incident flow extrapolated linearly from the two steps before, node by node.
-PointArray Simulation::guess(double dt) const {
-  PointArray z = last_.incident;
-  if (before_.incident.size() == z.size() && last_dt_ > 0)
-    for (std::size_t i = 0; i < z.size(); ++i) z[i] += (dt / last_dt_) * (last_.incident[i] - before_.incident[i]);
-  return z;
+// Extrapolated linearly from the two steps before, node by node; where that would change most of it (microtubules that were let go
+// or caught in every step), the last flow, which is then no better a start of GMRES than none.
+Simulation::Guess Simulation::guess(double dt) const {
+  constexpr double large = 0.3;
+  Guess guess{last_.incident, true};
+  if (before_.incident.size() != last_.incident.size() || last_dt_ <= 0) return guess;
+  auto const last = flat(ConstPoints(last_.incident)), before = flat(ConstPoints(before_.incident));
+  double const ratio = dt / last_dt_;
+  guess.is_close = ratio * (last - before).norm() <= large * last.norm();
+  if (guess.is_close) flat(Points(guess.flow)) += ratio * (last - before);
+  return guess;
 }
 
 std::string Simulation::misplaced_prediction(std::vector<BodyMotionMap> const& maps) const {
@@ -190,7 +195,7 @@ std::string Simulation::misplaced_trial() const {
   return words;
 }
 
-ScatteringSolution Simulation::solve(ConstPoints expected, std::vector<BodyMotionMap> const& maps,
+ScatteringSolution Simulation::solve(ConstPoints guess, std::vector<BodyMotionMap> const& maps,
                                      std::vector<ContactLoad> const& contacts, StepReport& report) {
   Radiation::Seconds const before = radiation_ ? radiation_->seconds() : Radiation::Seconds{};
   Timer const timer;
@@ -204,7 +209,7 @@ ScatteringSolution Simulation::solve(ConstPoints expected, std::vector<BodyMotio
     imposed.assign(nodes.size(), Vec3d{});
     background_->add_velocity(nodes, imposed);
   }
-  auto solution = scattering.solve(imposed, expected.size() == nodes.size() ? expected : ConstPoints{});
+  auto solution = scattering.solve(imposed, guess.size() == nodes.size() ? guess : ConstPoints{});
   if (radiation_) {
     report.sum_seconds += radiation_->seconds().sums - before.sums;
     report.surface_seconds += radiation_->seconds().surfaces - before.surfaces;
@@ -233,12 +238,12 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   for (auto& body : bodies_) maps.push_back(body.predict(dt));
   plan_fibers(dt);
   fibers_.prepare(dt, maps);
-  PointArray const expected = guess(dt);
-  std::vector<ContactLoad> const contacts = hold_fibers(expected, maps);
+  Guess const expected = guess(dt);
+  std::vector<ContactLoad> const contacts = hold_fibers(expected.flow, maps);
   trial.misplaced = misplaced_prediction(maps);
   report.prepare_seconds += timer.seconds();
   if (!trial.misplaced.empty()) return trial;
-  trial.solution = solve(expected, maps, contacts, report);
+  trial.solution = solve(expected.is_close ? ConstPoints(expected.flow) : ConstPoints{}, maps, contacts, report);
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     trial.contacts.push_back(contacts[b].load - contacts[b].resistance * trial.solution.motions[b]);
   advance(trial);

@@ -68,6 +68,10 @@ class Simulation {
 
  private:
   struct Trial;
+  struct Guess {
+    PointArray flow;  // incident, at the nodes; um/s
+    bool is_close;    // enough to start GMRES from
+  };
 
   std::vector<NamedArray> body_frame() const;
   std::vector<NamedArray> fiber_frame() const;
@@ -78,13 +82,13 @@ class Simulation {
   std::vector<ContactLoad> contacts(std::vector<BodyMotionMap> const& maps) const;  // of the bodies with the periphery
   std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps, std::vector<ContactLoad> const& contacts) const;
   Trial attempt(double dt, StepReport& report);
-  ScatteringSolution solve(ConstPoints expected, std::vector<BodyMotionMap> const& maps,
+  ScatteringSolution solve(ConstPoints guess, std::vector<BodyMotionMap> const& maps,
                            std::vector<ContactLoad> const& contacts, StepReport& report);
   void advance(Trial& trial);
   std::string misplaced_prediction(std::vector<BodyMotionMap> const& maps) const;
   std::string misplaced_trial() const;
   std::string objection(Trial const& trial) const;
-  PointArray guess(double dt) const;
+  Guess guess(double dt) const;
   void accept(Trial&& trial);
 
   Scene scene_;
