@@ -18,6 +18,10 @@ inline TimeScheme second_order_scheme(double dt, double dt_before) {
   return {dt, (1 + 2 * w) / (1 + w), 1 + w, -w * w / (1 + w)};
 }
 
+// A velocity that jumps by V within a step is taken up late: what follows stays behind by delay x dt x V (equal steps: dt V / 2),
+// unless the step moves by that much more.
+inline double delay(TimeScheme const& scheme) { return (scheme.a1 - 1) / scheme.a1; }
+
 // The fraction of (corrector - predictor) that is the local error of the second-order scheme, when the predictor
 // extrapolates the states at t, t - dt_1 and t - dt_1 - dt_2 quadratically (Milne's device).
 inline double milne_factor(double dt, double dt_1, double dt_2) {

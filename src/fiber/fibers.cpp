@@ -66,7 +66,7 @@ TimeScheme Fibers::scheme_of(Fiber const& fiber) const {
 
 // Accepted states whose motion goes on in this step.
 int Fibers::usable_past(Fiber const& fiber) const {
-  return fiber.plan.is_newborn || fiber.plan.has_jump ? 1 : fiber.n_past;
+  return fiber.plan.is_newborn || fiber.plan.has_contact ? 1 : fiber.n_past;
 }
 
 // The shape at the end of the step, linearly extrapolated at fixed material coordinates and put on its site.
@@ -143,6 +143,8 @@ void Fibers::prepare_again(std::size_t i, std::span<BodyMotionMap const> bodies)
   predict(fiber, bodies);
   set_history(fiber, scheme);
   MinusEndSite const& site = fiber.plan.site;
+  TipLoad tip = fiber.plan.tip;
+  tip.force += delay(scheme) * fiber.plan.tip_jump;
   FiberStep const step{.basis = &fiber_basis(own.n_node),
                        .scheme = scheme,
                        .bending_rigidity = own.bending_rigidity,
@@ -150,7 +152,7 @@ void Fibers::prepare_again(std::size_t i, std::span<BodyMotionMap const> bodies)
                        .minus_end = site.kind,
                        .body = site.is_attached() ? &bodies[site.body] : nullptr,
                        .load = fiber.plan.load,
-                       .tip = fiber.plan.tip,
+                       .tip = tip,
                        .node_loads = fiber.plan.node_loads,
                        .tension = fiber.plan.is_newborn ? ConstVector{} : ConstVector(fiber.tension)};
   std::size_t const first = first_node_[i], n = own.n_node;
@@ -267,7 +269,7 @@ void Fibers::accept() {
       std::swap(fiber.past[0], fiber.newborn);
       fiber.n_past = 1;
     }
-    if (fiber.plan.has_jump) fiber.n_past = 0;  // neither does its velocity in this step say what comes
+    if (fiber.plan.has_contact) fiber.n_past = 0;  // neither does its velocity in this step say what comes
     fiber.site = fiber.plan.site;
     std::swap(fiber.past[2], fiber.past[1]);
     std::swap(fiber.past[1], fiber.past[0]);

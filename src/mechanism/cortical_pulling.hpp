@@ -31,8 +31,8 @@ class CorticalPulling {
 
   // Force on a captured plus end, pN.
   Vec3d pull(Vec3d plus_end, Vec3d tangent) const;
-  // What remains, on average over the step, of the pull on a tip that was let go at a fraction of it, pN.
-  Vec3d last_pull(std::size_t tip, double fraction) const { return fraction * now_[tip].pull; }
+  // Force on a tip that is captured at the beginning of the step, pN.
+  Vec3d last_pull(std::size_t tip) const { return now_[tip].pull; }
   // The length that puts a plus end on the cortex, um: that of a fiber of `length` whose plus end is there.
   double length_at_cortex(double length, Vec3d plus_end, Vec3d tangent) const;
 

@@ -66,7 +66,10 @@ void Pushing::surround(std::size_t tip, double rate_without_load, TipSurrounding
 }
 
 void Pushing::make_contact(std::size_t tip, Vec3d reached, double left) {
-  trial_[tip] = {.is_made = true, .anchor = cortex_.at_distance(reached, contact_distance()), .sliding_time = left};
+  bool const is_pinned = spec_.sliding == Sliding::none;  // where it is: its spring is at rest then
+  trial_[tip] = {.is_made = true,
+                 .anchor = is_pinned ? reached : cortex_.at_distance(reached, contact_distance()),
+                 .sliding_time = left};
 }
 
 // Of second order from the beginning: on contact the spring is not loaded, so the anchor is at rest, and the trapezoidal

@@ -33,8 +33,8 @@ class Pushing {
 
   // Holds a tip that has made contact in this step; `reached`: where it was then, `left`: of the step after that, s.
   void make_contact(std::size_t tip, Vec3d reached, double left);
-  // What remains, on average over the step, of the force on a tip that was let go at a fraction of it, pN.
-  Vec3d last_force(std::size_t tip, double fraction) const { return fraction * now_[tip].force; }
+  // Force on a tip that pushes at the beginning of the step, pN.
+  Vec3d last_force(std::size_t tip) const { return now_[tip].force; }
 
   // The load on a tip that pushes, linear about its balance, for a tip that would move to `free_position` without it.
   TipLoad load(std::size_t tip, Vec3d free_position, Matrix3 const& compliance, Vec3d tangent, double dt) const;

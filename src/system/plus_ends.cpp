@@ -64,6 +64,18 @@ void PlusEnds::add(std::size_t fiber, double length, double spring_stiffness) {
   errors_.push_back(0.0);
 }
 
+double PlusEnds::length_at_rest(double length, Vec3d plus_end, Vec3d tangent) const {
+  if (!pushing_) return length;
+  for (int pass = 0; pass < 5; ++pass) {  // by Newton
+    NearCortex const cortex = cortex_->near(plus_end);
+    double const slope = dot(tangent, cortex.normal), missing = pushing_->contact_distance() - cortex.distance;
+    if (slope <= least_slope || (pass == 0 && missing <= 0)) break;
+    length -= missing / slope;
+    plus_end -= (missing / slope) * tangent;
+  }
+  return length;
+}
+
 // Of the material at the plus end, um/s: right to first order in dt, so that contact begins when it should to second order.
 Vec3d PlusEnds::tip_velocity(std::size_t fiber, Fibers const& fibers, std::span<RigidPose const> poses,
                              std::span<Vector6 const> motions) const {
@@ -106,14 +118,19 @@ void PlusEnds::share_sites(double dt) {
   }
 }
 
-void PlusEnds::plan_loads(std::size_t i, Fibers& fibers) {
-  auto const& now = growth_.tips()[i];
+// What held a tip acts until it is let go.
+void PlusEnds::plan_release(std::size_t i, Fibers& fibers) {
   auto const& trial = growth_.trial_tips()[i];
+  bool const has_pushed = growth_.tips()[i].state == TipState::pushing;
+  Vec3d const force = has_pushed ? pushing_->last_force(i) : pulling_->last_pull(i);
   auto& plan = fibers.plan(trial.fiber);
-  if (trial.released_at) {
-    double const part = *trial.released_at / dt_;
-    plan.tip.force += now.state == TipState::pushing ? pushing_->last_force(i, part) : pulling_->last_pull(i, part);
-  }
+  plan.tip.force += (*trial.released_at / dt_) * force;
+  plan.tip_jump = -force;
+}
+
+void PlusEnds::plan_loads(std::size_t i, Fibers& fibers) {
+  auto const& trial = growth_.trial_tips()[i];
+  if (trial.released_at) plan_release(i, fibers);
   if (trial.contact_at && trial.state == TipState::pushing) {
     Centreline const& shape = fibers.shape(trial.fiber);
     Vec3d const velocity = velocities_[i] + growth_.spec().growth_speed * shape.tangents.back();
@@ -174,7 +191,8 @@ void PlusEnds::hold_pushing(std::size_t i, Fibers& fibers, TipAnswer const& answ
                                                                         pushing_->growth_factor(compression)));
   growth_.set_trial(i, growth_.advanced(i, dt_, around));
   growth_.plan(fibers, i);
-  if (trial.state != TipState::pushing) return;  // the load brought its catastrophe into the step
+  if (trial.released_at) plan_release(i, fibers);  // the load brought its catastrophe into the step
+  if (trial.state != TipState::pushing) return;
   plan.tip.stiffness = load.stiffness;
   plan.tip.anchor = load.anchor;
   plan.tip.force += load.force;
@@ -185,10 +203,11 @@ void PlusEnds::hold_captured(std::size_t i, Fibers& fibers, TipAnswer const& ans
   auto& plan = fibers.plan(trial.fiber);
   Vec3d const tangent = fibers.predicted_shape(trial.fiber).tangents.back();
   double const held = dt_ - trial.captured_at.value_or(0.0);
-  Vec3d const pull = (held / dt_) * pulling_->pull(answer.position, tangent);
-  plan.tip.force += pull;
+  Vec3d const pull = pulling_->pull(answer.position, tangent), mean = (held / dt_) * pull;
+  plan.tip.force += mean;
+  if (trial.captured_at) plan.tip_jump = pull;
   double const start = plan.length - surroundings_[i].captured_speed * held;
-  double const wanted = pulling_->length_at_cortex(plan.length, answer.position + answer.compliance * pull, tangent);
+  double const wanted = pulling_->length_at_cortex(plan.length, answer.position + answer.compliance * mean, tangent);
   double const length = std::max(std::min(wanted, start + growth_.spec().growth_speed * held),
                                  std::min(start, growth_.spec().minimal_length));
   speeds_[i] = trial.captured_at ? 0.0 : (length - start) / held;

@@ -20,6 +20,9 @@ class PlusEnds {
   // Lets a fiber grow and shrink from now on. `spring_stiffness`: of its contact with the cortex, pN/um.
   void add(std::size_t fiber, double length, double spring_stiffness);
 
+  // Of a straight fiber, um: `length`, or less where its plus end would push the cortex from the start.
+  double length_at_rest(double length, Vec3d plus_end, Vec3d tangent) const;
+
   // Lengths, renucleation and explicit loads of the step; `poses`, `motions` [n_body] at its beginning.
   void plan(double dt, Fibers& fibers, std::span<RigidPose const> poses, std::span<Vector6 const> motions);
   // Loads and lengths of those that the cortex holds, implicit; u [n_node]: incident flow, extrapolated.
@@ -41,6 +44,7 @@ class PlusEnds {
   Vec3d tip_velocity(std::size_t fiber, Fibers const& fibers, std::span<RigidPose const> poses,
                      std::span<Vector6 const> motions) const;
   void share_sites(double dt);
+  void plan_release(std::size_t tip, Fibers& fibers);
   void plan_loads(std::size_t tip, Fibers& fibers);
   void hold_pushing(std::size_t tip, Fibers& fibers, TipAnswer const& answer);
   void hold_captured(std::size_t tip, Fibers& fibers, TipAnswer const& answer);

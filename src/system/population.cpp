@@ -67,12 +67,12 @@ void add_scene_fibers(Scene const& scene, Fibers& fibers, std::optional<PlusEnds
       return placed.reach(pose.point(site.position), pose.rotation * site.direction, 100.0 * aster.length) - margin;
     };
     double const decay = scene.dynamic_instability ? length_decay(*scene.dynamic_instability) : 0.0;
+    bool const grows = aster.material.growing && growth;
     for (auto const& fiber : aster_fibers(aster, aster.count, body, scene.run.seed, number, reach, decay)) {
-      auto const shape = straight_centreline(pose.point(fiber.site.position),
-                                             pose.rotation * fiber.site.direction, fiber.length, properties.n_node);
-      std::size_t const index = fibers.add(properties, fiber.site, shape);
-      if (aster.material.growing && growth)
-        growth->add(index, fiber.length, spring_stiffness(scene, properties.bending_rigidity, body));
+      Vec3d const start = pose.point(fiber.site.position), direction = pose.rotation * fiber.site.direction;
+      double const length = grows ? growth->length_at_rest(fiber.length, start + fiber.length * direction, direction) : fiber.length;
+      std::size_t const index = fibers.add(properties, fiber.site, straight_centreline(start, direction, length, properties.n_node));
+      if (grows) growth->add(index, length, spring_stiffness(scene, properties.bending_rigidity, body));
     }
   }
 }

@@ -183,6 +183,48 @@ TEST(CorticalPulling, shortens_the_fiber_as_its_body_comes_closer) {
   EXPECT_NEAR(simulation.bodies()[0].motion()[2], 3.0 / drag, 1e-3 * 3.0 / drag);
 }
 
+TEST(CorticalPulling, moves_a_body_at_second_order_in_time_through_captures_and_releases) {
+  auto const position_after = [](double dt) {
+    Simulation simulation(parse_scene(R"(
+      [fluid]
+      viscosity = 1.6
+      [periphery]
+      shape = "sphere"
+      radius = 8.0
+      [[body]]
+      name = "pnc"
+      shape = "sphere"
+      radius = 2.0
+      [[aster]]
+      body = "pnc"
+      position = [0.0, 0.0, 2.6]
+      centrosome_radius = 0.5
+      opening = 100.0
+      count = 6
+      length = 5.2
+      nodes = 10
+      growing = true
+      [dynamic_instability]
+      catastrophe_rate = 0.0
+      rescue_rate = 5.0
+      [cortical_pulling]
+      sites = 30
+      capture_rate = 1.0
+      residence_time = 0.7
+      [run]
+      interactions = "local"
+      accuracy = 1e-4
+      adaptive = false
+      seed = 2
+      time_step = )" + std::to_string(dt), "t.toml"));
+    while (simulation.time() < 2.4) simulation.step(2.4);
+    return simulation.bodies()[0].pose().position;
+  };
+  double const coarse = norm(position_after(0.1) - position_after(0.05)), fine = norm(position_after(0.025) - position_after(0.0125));
+  EXPECT_GT(norm(position_after(0.025)), 0.03);
+  EXPECT_GT(std::log2(coarse / fine) / 2, 1.7) << coarse << " " << fine;
+}
+
 TEST(CorticalPulling, resumes_bit_for_bit_with_all_mechanisms) {
   std::string const text = R"(
     [periphery]

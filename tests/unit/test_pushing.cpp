@@ -64,8 +64,8 @@ std::string const free_sliding = "sliding = \"free\"\n";
 
 TEST(Pushing, spring_without_sliding_balances_the_compliance) {
   Pushing pushing = pushing_of({});
-  pushing.make_contact(0, {0, 0, 4.9}, 0.1);
-  Vec3d const anchor{0, 0, 5.0 - 0.1 - 0.02}, free_position{0.05, 0.02, 4.95};
+  Vec3d const anchor{0, 0, 5.0 - 0.1 - 0.01}, free_position{0.05, 0.02, 4.95};  // wherever within d* contact began
+  pushing.make_contact(0, anchor, 0.1);
   TipLoad const load = pushing.load(0, free_position, compliance(), {0, 0, 1}, 0.1);
   Vec3d const force = balanced_force(load, free_position, compliance());
   Vec3d const position = free_position + compliance() * force;
@@ -95,7 +95,7 @@ TEST(Pushing, friction_lies_between_the_limits) {
   Vec3d const free_position{0.05, 0.0, 4.95};
   auto const force_with = [&](PushingSpec const& spec) {
     Pushing pushing = pushing_of(spec);
-    pushing.make_contact(0, {0, 0, 4.9}, 0.1);
+    pushing.make_contact(0, {0, 0, 5.0 - 0.1 - 0.02}, 0.1);
     return balanced_force(pushing.load(0, free_position, compliance(), {0, 0, 1}, 0.1), free_position, compliance());
   };
   using enum PushingSpec::Sliding;
@@ -164,6 +164,51 @@ TEST(Pushing, plus_end_slides_or_stays) {
   EXPECT_LT(norm(held_end - start - reached * along), 0.2);  // F d* / F_P
   EXPECT_GT(norm(sliding_end - start - reached * along), 0.5);
   for (Vec3d x : {held_end, sliding_end}) EXPECT_LT(norm(x), 4.0);
+}
+
+TEST(Pushing, of_a_body_by_fibers_in_contact_from_the_start_converges_at_second_order) {
+  // Soft contacts, which these steps resolve; chance is frozen, releases included.
+  auto const position_after = [](double dt) {
+    Simulation simulation(parse_scene(R"(
+      [fluid]
+      viscosity = 0.8
+      [periphery]
+      shape = "ellipsoid"
+      semi_axes = [9.0, 8.0, 8.0]
+      [[body]]
+      name = "pnc"
+      shape = "sphere"
+      radius = 2.0
+      position = [1.0, 0.5, 0.0]
+      [[aster]]
+      body = "pnc"
+      position = [2.6, 0.0, 0.0]
+      centrosome_radius = 0.5
+      opening = 100.0
+      count = 5
+      length = 60.0
+      lengths = "exponential"
+      nodes = 10
+      growing = true
+      [dynamic_instability]
+      catastrophe_rate = 0.3
+      initially_shrinking = 0.0
+      [pushing]
+      sliding = "none"
+      range = 0.3
+      spring_stiffness = 15.0
+      [run]
+      interactions = "local"
+      accuracy = 1e-4
+      adaptive = false
+      seed = 3
+      time_step = )" + std::to_string(dt), "t.toml"));
+    while (simulation.time() < 1.6) simulation.step(1.6);
+    return simulation.bodies()[0].pose().position;
+  };
+  double const coarse = norm(position_after(0.08) - position_after(0.04)), fine = norm(position_after(0.01) - position_after(0.005));
+  EXPECT_GT(norm(position_after(0.01) - Vec3d{1.0, 0.5, 0.0}), 0.04);
+  EXPECT_GT(std::log2(coarse / fine) / 3, 1.7) << coarse << " " << fine;
 }
 
 TEST(Pushing, converges_at_about_second_order_in_time) {
