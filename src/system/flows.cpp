@@ -84,11 +84,9 @@ Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double
 }
 
 Vector6 body_load(DirichletFlow const& flow, RigidPose const& pose, double viscosity, BackgroundFlow const& background) {
-  Matrix3 const back = pose.rotation.transpose();
-  PointArray at_wall;
-  for (Vec3d const node : flow.surface().nodes())
-    at_wall.push_back(back * background.velocity(pose.point(node)));
-  return viscosity * turn_of(pose) * flow.load(at_wall);
+  PointArray incident;
+  for (Vec3d const node : flow.surface().nodes()) incident.push_back(background.velocity(pose.point(node)));
+  return viscosity * turn_of(pose) * load_in_body_frame(flow, pose, incident);
 }
 
 }  // namespace asterflow

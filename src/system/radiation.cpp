@@ -131,12 +131,16 @@ void Radiation::plan_images(FiberNodes const& fibers) {
   if (has_rough_exchange()) place(true, images_.back().n_merged());
 }
 
+Vector6 load_in_body_frame(DirichletFlow const& flow, RigidPose const& pose, ConstPoints incident) {
+  Matrix3 const back = pose.rotation.transpose();
+  PointArray local(incident.size());
+  for (std::size_t i = 0; i < incident.size(); ++i) local[i] = back * incident[i];
+  return flow.load(local);
+}
+
 Vector6 Radiation::load_in_body_frame(std::size_t body, ConstPoints incident) const {
-  auto const own = incident.subspan(first_[body], first_[body + 1] - first_[body]);
-  Matrix3 const back = poses_[body].rotation.transpose();
-  PointArray local(own.size());
-  for (std::size_t i = 0; i < own.size(); ++i) local[i] = back * own[i];
-  return bodies_[body]->load(local);
+  return asterflow::load_in_body_frame(*bodies_[body], poses_[body],
+                                       incident.subspan(first_[body], first_[body + 1] - first_[body]));
 }
 
 Vector6 Radiation::load_of_incident(std::size_t body, ConstPoints incident) const {

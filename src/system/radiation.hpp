@@ -44,6 +44,10 @@ struct RadiationOptions {
 // As accurate as asked for, or at a fraction of the cost: for the inside of a preconditioner.
 enum class Exchange { accurate, rough };
 
+// Force and torque about the centre, over viscosity and in the frame of the body, on a surface that is held in a flow.
+// incident [n_node of the surface], um/s.
+Vector6 load_in_body_frame(DirichletFlow const& flow, RigidPose const& pose, ConstPoints incident);
+
 class Radiation {
  public:
   using Flow = std::shared_ptr<DirichletFlow const>;
