@@ -1,6 +1,7 @@
 #include "mechanism/cortical_pulling.hpp"
 
 #include "system/simulation.hpp"
+#include "time_order.hpp"
 
 #include <gtest/gtest.h>
 
@@ -184,8 +185,8 @@ TEST(CorticalPulling, shortens_the_fiber_as_its_body_comes_closer) {
 }
 
 TEST(CorticalPulling, moves_a_body_at_second_order_in_time_through_captures_and_releases) {
-  auto const position_after = [](double dt) {
-    Simulation simulation(parse_scene(R"(
+  auto const place = [](double dt) {
+    return test::body_after(2.4, R"(
       [fluid]
       viscosity = 1.6
       [periphery]
@@ -214,15 +215,11 @@ TEST(CorticalPulling, moves_a_body_at_second_order_in_time_through_captures_and_
       [run]
       interactions = "local"
       accuracy = 1e-4
-      adaptive = false
-      seed = 2
-      time_step = )" + std::to_string(dt), "t.toml"));
-    while (simulation.time() < 2.4) simulation.step(2.4);
-    return simulation.bodies()[0].pose().position;
+      seed = 2)", dt);
   };
-  double const coarse = norm(position_after(0.1) - position_after(0.05)), fine = norm(position_after(0.025) - position_after(0.0125));
-  EXPECT_GT(norm(position_after(0.025)), 0.03);
-  EXPECT_GT(std::log2(coarse / fine) / 2, 1.7) << coarse << " " << fine;
+  auto const [coarse, fine, order] = test::convergence_in_time(place, 0.1, 2);
+  EXPECT_GT(norm(place(0.025)), 0.03);
+  EXPECT_GT(order, 1.7) << coarse << " " << fine;
 }
 
 TEST(CorticalPulling, resumes_bit_for_bit_with_all_mechanisms) {

@@ -1,6 +1,7 @@
 #include "mechanism/pushing.hpp"
 
 #include "system/simulation.hpp"
+#include "time_order.hpp"
 
 #include <gtest/gtest.h>
 
@@ -168,8 +169,8 @@ TEST(Pushing, plus_end_slides_or_stays) {
 
 TEST(Pushing, of_a_body_by_fibers_in_contact_from_the_start_converges_at_second_order) {
   // Soft contacts, which these steps resolve; chance is frozen, releases included.
-  auto const position_after = [](double dt) {
-    Simulation simulation(parse_scene(R"(
+  auto const place = [](double dt) {
+    return test::body_after(1.6, R"(
       [fluid]
       viscosity = 0.8
       [periphery]
@@ -200,15 +201,11 @@ TEST(Pushing, of_a_body_by_fibers_in_contact_from_the_start_converges_at_second_
       [run]
       interactions = "local"
       accuracy = 1e-4
-      adaptive = false
-      seed = 3
-      time_step = )" + std::to_string(dt), "t.toml"));
-    while (simulation.time() < 1.6) simulation.step(1.6);
-    return simulation.bodies()[0].pose().position;
+      seed = 3)", dt);
   };
-  double const coarse = norm(position_after(0.08) - position_after(0.04)), fine = norm(position_after(0.01) - position_after(0.005));
-  EXPECT_GT(norm(position_after(0.01) - Vec3d{1.0, 0.5, 0.0}), 0.04);
-  EXPECT_GT(std::log2(coarse / fine) / 3, 1.7) << coarse << " " << fine;
+  auto const [coarse, fine, order] = test::convergence_in_time(place, 0.08, 3);
+  EXPECT_GT(norm(place(0.01) - Vec3d{1.0, 0.5, 0.0}), 0.04);
+  EXPECT_GT(order, 1.7) << coarse << " " << fine;
 }
 
 TEST(Pushing, converges_at_about_second_order_in_time) {
@@ -220,8 +217,7 @@ TEST(Pushing, converges_at_about_second_order_in_time) {
       return plus_end(simulated(growing_scene(sliding, oblique, 4.0) + steps, 2.0)->fibers().shape(0));
     };
     // Over four halvings: the instant of contact falls differently into every step.
-    double const coarse = norm(tip_after(0.1) - tip_after(0.05)), fine = norm(tip_after(0.00625) - tip_after(0.003125));
-    double const order = std::log2(coarse / fine) / 4;
+    auto const [coarse, fine, order] = test::convergence_in_time(tip_after, 0.1, 4);
     EXPECT_GT(order, sliding == friction ? 1.9 : 1.7) << sliding << coarse << " " << fine;
   }
 }
