@@ -1,3 +1,4 @@
+#include "surface/contact.hpp"
 #include "surface/surface.hpp"
 
 #include <gtest/gtest.h>
@@ -28,4 +29,21 @@ TEST(Grading, crowded_nodes_still_integrate_the_area) {
   double nearest = 4.0;
   for (Vec3d const x : surface.nodes()) nearest = std::min(nearest, norm(x - 2.0 * normalized(Vec3d{1, 2, -2})));
   EXPECT_LT(nearest, 0.05);  // an even grid of this order has its first ring at 0.15
+}
+
+// A sphere laid on an ellipsoid from outside and from inside, apart or overlapping a little.
+TEST(Contact, gap_of_a_sphere_and_an_ellipsoid_is_exact) {
+  auto const ellipsoid = make_shape({.kind = ShapeSpec::Kind::ellipsoid, .semi_axes = {3.0, 2.0, 1.5}});
+  double const radius = 0.7;
+  for (double const gap : {0.02, 1e-3, 1e-5, -1e-5, -1e-3})
+    for (Vec3d const x : {Vec3d{1, 2, -2}, Vec3d{-3, 0.3, 1}, Vec3d{0, 0, 1}})
+      for (bool const inside : {false, true}) {
+        ClosestPoint const at = ellipsoid->closest_point(x);
+        Vec3d const centre = at.position + (inside ? -1.0 : 1.0) * (radius + gap) * at.normal;
+        PlacedSurface const ball{make_shape({.radius = radius}), centre}, around{.shape = ellipsoid, .encloses = inside};
+        for (Contact const& contact : {find_contact(ball, around), find_contact(around, ball)}) {
+          EXPECT_NEAR(contact.gap, gap, 1e-9) << inside;
+          EXPECT_NEAR(norm(contact.first - contact.second), std::abs(gap), 1e-9);
+        }
+      }
 }
