@@ -60,12 +60,17 @@ struct BodyMotionMap {
     return displacement_per_velocity * to_vec3(change.head<3>()) +
            cross(turn_per_angular_velocity * to_vec3(change.tail<3>()), point - predicted.position);
   }
+  // Its derivative with q, for a point at `arm` from the centre.
+  Eigen::Matrix<double, 3, 6> displacement_of(Vec3d arm) const {
+    Eigen::Matrix<double, 3, 6> moved;
+    moved << displacement_per_velocity * Matrix3::Identity(), -cross_matrix(arm) * turn_per_angular_velocity;
+    return moved;
+  }
   // Resistance that a spring (pN/um) adds which holds a point of the body at `arm` from its centre.
   Matrix6 spring_resistance(Vec3d arm, Matrix3 const& stiffness) const {
-    Eigen::Matrix<double, 3, 6> moved, lever;  // displacement and velocity of the point per motion
-    moved << displacement_per_velocity * Matrix3::Identity(), -cross_matrix(arm) * turn_per_angular_velocity;
+    Eigen::Matrix<double, 3, 6> lever;  // velocity of the point per motion
     lever << Matrix3::Identity(), -cross_matrix(arm);
-    return lever.transpose() * stiffness * moved;
+    return lever.transpose() * stiffness * displacement_of(arm);
   }
 };
 

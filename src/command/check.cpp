@@ -126,6 +126,7 @@ void print_mechanisms(Scene const& scene) {
     if (repulsion->fiber_cortex) pairs.push_back("fibers and cortex");
     if (repulsion->fiber_body) pairs.push_back("fibers and bodies");
     if (repulsion->body_cortex) pairs.push_back("bodies and cortex");
+    if (repulsion->body_body && scene.bodies.size() > 1) pairs.push_back("bodies and bodies");
     print_line("repulsion", fmt::format("within {:g} um: {}", repulsion->range, fmt::join(pairs, ", ")));
   }
 }

@@ -142,11 +142,11 @@ void check_repelled_objects(SceneTables const& tables, Scene const& scene, bool 
   auto const& repulsion = *scene.steric_repulsion;
   bool const has_cortex = scene.periphery.has_value(), has_bodies = !scene.bodies.empty();
   bool const acts = (repulsion.fiber_cortex && has_fibers && has_cortex) || (repulsion.fiber_body && has_fibers && has_bodies) ||
-                    (repulsion.body_cortex && has_bodies && has_cortex);
+                    (repulsion.body_cortex && has_bodies && has_cortex) || (repulsion.body_body && scene.bodies.size() > 1);
   if (!acts)
     tables.steric_repulsion->fail(
         "has nothing to repel: fiber_cortex needs fibers and a [periphery], fiber_body fibers and a [[body]], body_cortex a "
-        "[[body]] and a [periphery]");
+        "[[body]] and a [periphery], body_body two [[body]]");
 }
 
 // What happens near the cortex happens within a part of the cell.

@@ -11,6 +11,7 @@ StericRepulsionSpec read_steric_repulsion(Table table) {
   table.read("fiber_cortex", spec.fiber_cortex);
   table.read("fiber_body", spec.fiber_body);
   table.read("body_cortex", spec.body_cortex);
+  table.read("body_body", spec.body_body);
   table.finish();
   return spec;
 }

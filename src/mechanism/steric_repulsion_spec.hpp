@@ -13,6 +13,7 @@ struct StericRepulsionSpec {
   bool fiber_cortex = true;
   bool fiber_body = false;     // fibers and bodies, those that hold them and others
   bool body_cortex = true;
+  bool body_body = true;
 };
 
 StericRepulsionSpec read_steric_repulsion(Table table);

@@ -56,7 +56,8 @@ std::string Placement::complaint(std::span<RigidPose const> poses) const {
     for (std::size_t a = 0; a < b; ++a) {
       if (norm(poses[a].position - poses[b].position) > bodies_[a]->size() + bodies_[b]->size()) continue;
       if (!(find_contact(placed(bodies_[a], poses[a]), body).gap > 0))
-        return words(fmt::format("overlaps body \"{}\",", scene_.bodies[a].name));
+        return words(fmt::format("overlaps body \"{}\",", scene_.bodies[a].name)) +
+               remedy(scene_, &StericRepulsionSpec::body_body, "body_body", "body_force");
     }
   }
   return {};

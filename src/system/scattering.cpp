@@ -24,19 +24,38 @@ Scattering::Scattering(FiberAnswers const& fibers, std::vector<BodyDrive> bodies
 
 ConstPoints Scattering::nodes() const { return radiation_ ? radiation_->nodes() : fibers_.nodes().positions; }
 
+void Scattering::couple(Eigen::MatrixXd const& between) {
+  if (between.size() == 0) return;
+  Eigen::MatrixXd system = between;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Eigen::Index const row = static_cast<Eigen::Index>(6 * b);
+    if (!bodies_[b].is_free) system.middleRows<6>(row).setZero();
+    system.block<6, 6>(row, row) = bodies_[b].is_free ? resistance(b) : Matrix6(Matrix6::Identity());
+  }
+  coupled_.emplace(system);
+}
+
+// For loads that come with the flow; affine: and those that do not.
+void Scattering::move_bodies(std::vector<Vector6> const& loads, bool affine, std::vector<Vector6>& motions) const {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(6 * bodies_.size()));
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Vector6 value = affine ? bodies_[b].value : Vector6(Vector6::Zero());
+    if (bodies_[b].is_free) value += loads[b];
+    motions[b] = bodies_[b].is_free && !coupled_ ? Vector6(held_resistance_[b].solve(value)) : value;
+    all.segment<6>(static_cast<Eigen::Index>(6 * b)) = value;
+  }
+  if (!coupled_) return;
+  all = coupled_->solve(all).eval();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) motions[b] = all.segment<6>(static_cast<Eigen::Index>(6 * b));
+}
+
 void Scattering::answer(ConstPoints u, std::vector<Vector6> loads, bool affine, Points force_density,
                         std::vector<Vector6>& motions) const {
   motions.assign(bodies_.size(), Vector6::Zero());
   std::fill(force_density.begin(), force_density.end(), Vec3d{});
   if (affine) fibers_.add_affine_response(force_density, loads);
   if (!bodies_.empty()) fibers_.add_loads(u, loads);
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    auto const& body = bodies_[b];
-    if (body.is_free)
-      motions[b] = held_resistance_[b].solve(affine ? Vector6(loads[b] + body.value) : loads[b]);
-    else if (affine)
-      motions[b] = body.value;
-  }
+  move_bodies(loads, affine, motions);
   fibers_.add_linear_response(u, motions, force_density, {});
 }
 

@@ -2,7 +2,8 @@
 // The coupled problem of one time level, as multiple scattering. The unknown is z, the incident flow at all nodes
 // (velocity due to all OTHER objects and the background). Objects answer to z locally and exactly,
 //   f = f_0 + R z + C q       fibers, elastic and inextensible, on bodies that move with q = (U, Omega)
-//   (K + sum S) q = F_ext + faxen(z) + sum (l_0 + D z)      each free body with the fibers that it holds
+//   (K + sum S) q = F_ext + faxen(z) + sum (l_0 + D z)      each free body with the fibers that it holds; where bodies touch
+//                                                           each other, all of these together
 // and their flows make up the incident flow of the others:
 //   z = exchange(f(z), q(z), z) + background  =:  L z + b,
 // where bodies answer to what reaches them from z, not to z (system/radiation.hpp).
@@ -18,6 +19,7 @@
 #include "system/radiation.hpp"
 
 #include <Eigen/LU>
+#include <optional>
 #include <span>
 
 namespace asterflow {
@@ -81,6 +83,9 @@ class Scattering {
   // Of a body with the fibers that it holds, at fixed incident flow.
   Matrix6 resistance(std::size_t body) const { return held_resistance_[body].reconstructedMatrix(); }
 
+  // Bodies that feel each other's motions q: between [6 n_body, 6 n_body] q is taken off their loads; zero on the diagonal, empty: none.
+  void couple(Eigen::MatrixXd const& between);
+
   // Changes what drives a body.
   void set_drive(std::size_t body, Vector6 const& value) { bodies_[body].value = value; }
 
@@ -93,6 +98,7 @@ class Scattering {
               std::vector<Vector6>& motions) const;
 
  private:
+  void move_bodies(std::vector<Vector6> const& loads, bool affine, std::vector<Vector6>& motions) const;
   // received += what all objects send in answer to z; affine: with what remains at zero flow
   void add_answer(ConstPoints z, bool affine, Points received, Exchange kind) const;
   // result = (I - L) z
@@ -103,6 +109,7 @@ class Scattering {
   std::vector<BodyDrive> bodies_;
   std::vector<bool> is_free_;
   std::vector<Eigen::PartialPivLU<Matrix6>> held_resistance_;  // K + sum S
+  std::optional<Eigen::PartialPivLU<Eigen::MatrixXd>> coupled_;  // the same of all bodies; prescribed ones: identity
   Radiation* radiation_;
   Recycling* memory_;
   ScatteringOptions options_;

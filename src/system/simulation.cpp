@@ -87,23 +87,24 @@ void Simulation::plan_fibers(double dt) {
 }
 
 // Contacts of fibers and bodies, for the incident flow that is expected; returns those of the bodies.
-std::vector<ContactLoad> Simulation::hold_fibers(ConstPoints expected, std::vector<BodyMotionMap> const& maps) {
-  std::vector<ContactLoad> contacts = this->contacts(maps);
+BodyContacts Simulation::hold_fibers(ConstPoints expected, std::vector<BodyMotionMap> const& maps) {
+  BodyContacts contacts = this->contacts(maps);
   if (!plus_ends_ && !steric_repulsion_) return contacts;
   PointArray u(expected.begin(), expected.end());
   u.resize(fibers_.node_count());
   if (plus_ends_) plus_ends_->hold(fibers_, u, maps);
   if (!steric_repulsion_) return contacts;
-  auto const local = [&] { return local_motions(expected, drives(maps, contacts)); };
+  auto const local = [&] { return local_motions(expected, drives(maps, contacts), contacts.between); };
   auto const loads = steric_repulsion_->hold(fibers_, u, maps, local);
-  for (std::size_t b = 0; b < contacts.size(); ++b)
-    if (bodies_[b].is_free()) contacts[b].load += loads[b];
+  for (std::size_t b = 0; b < loads.size(); ++b) contacts.loads[b].load += loads[b];
   return contacts;
 }
 
-LocalMotions Simulation::local_motions(ConstPoints expected, std::vector<BodyDrive> const& drives) const {
+LocalMotions Simulation::local_motions(ConstPoints expected, std::vector<BodyDrive> const& drives,
+                                       Eigen::MatrixXd const& between) const {
   SteppedFibers const answers(fibers_, nullptr);
-  Scattering const alone(answers, drives, nullptr, nullptr, {});
+  Scattering alone(answers, drives, nullptr, nullptr, {});
+  alone.couple(between);
   std::vector<Vector6> loads(drives.size(), Vector6::Zero());
   PointArray u(expected.begin(), expected.end()), force_density(fibers_.node_count());
   u.resize(fibers_.node_count());
@@ -126,16 +127,13 @@ Matrix6 Simulation::resistance_alone(std::size_t body, RigidPose const& pose) co
   return body_resistance(*flows_.bodies[body], pose, scene_.fluid.viscosity);
 }
 
-std::vector<ContactLoad> Simulation::contacts(std::vector<BodyMotionMap> const& maps) const {
-  std::vector<ContactLoad> contacts(bodies_.size());
-  if (steric_repulsion_)
-    for (std::size_t b = 0; b < bodies_.size(); ++b)
-      if (bodies_[b].is_free()) contacts[b] = steric_repulsion_->on_body(b, maps[b]);
-  return contacts;
+BodyContacts Simulation::contacts(std::vector<BodyMotionMap> const& maps) const {
+  if (steric_repulsion_) return steric_repulsion_->on_bodies(maps);
+  return {.loads = std::vector<ContactLoad>(bodies_.size()), .between = {}};
 }
 
 std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps,
-                                          std::vector<ContactLoad> const& contacts) const {
+                                          BodyContacts const& contacts) const {
   std::vector<BodyDrive> drives;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     auto const& body = bodies_[b];
@@ -143,8 +141,10 @@ std::vector<BodyDrive> Simulation::drives(std::vector<BodyMotionMap> const& maps
                     body.is_free(), body.is_free() ? body.external_load() : body.prescribed_motion()};
     if (!radiation_ && background_ && body.is_free())  // otherwise the background is part of the incident flow
       drive.value += body_load(*flows_.bodies[b], drive.pose, scene_.fluid.viscosity, *background_);
-    drive.resistance += contacts[b].resistance;
-    drive.value += contacts[b].load;
+    if (body.is_free()) {
+      drive.resistance += contacts.loads[b].resistance;
+      drive.value += contacts.loads[b].load;
+    }
     drives.push_back(drive);
   }
   return drives;
@@ -196,12 +196,13 @@ std::string Simulation::misplaced_trial() const {
 }
 
 ScatteringSolution Simulation::solve(ConstPoints guess, std::vector<BodyMotionMap> const& maps,
-                                     std::vector<ContactLoad> const& contacts, StepReport& report) {
+                                     BodyContacts const& contacts, StepReport& report) {
   Radiation::Seconds const before = radiation_ ? radiation_->seconds() : Radiation::Seconds{};
   Timer const timer;
   SteppedFibers const answers(fibers_, cytoplasmic_pulling_ ? &*cytoplasmic_pulling_ : nullptr);
   Scattering scattering(answers, drives(maps, contacts), radiation_.get(), &memory_,
                         {.tolerance = scene_.run.gmres_tolerance, .max_iterations = scene_.run.gmres_max_iterations});
+  scattering.couple(contacts.between);
   auto const nodes = scattering.nodes();
   report.prepare_seconds += timer.seconds();
   PointArray imposed;
@@ -239,13 +240,12 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   plan_fibers(dt);
   fibers_.prepare(dt, maps);
   Guess const expected = guess(dt);
-  std::vector<ContactLoad> const contacts = hold_fibers(expected.flow, maps);
+  BodyContacts const contacts = hold_fibers(expected.flow, maps);
   trial.misplaced = misplaced_prediction(maps);
   report.prepare_seconds += timer.seconds();
   if (!trial.misplaced.empty()) return trial;
   trial.solution = solve(expected.is_close ? ConstPoints(expected.flow) : ConstPoints{}, maps, contacts, report);
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    trial.contacts.push_back(contacts[b].load - contacts[b].resistance * trial.solution.motions[b]);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) trial.contacts.push_back(contacts.load(b, trial.solution.motions));
   advance(trial);
   trial.misplaced = misplaced_trial();
   return trial;

@@ -77,13 +77,13 @@ class Simulation {
   std::vector<NamedArray> fiber_frame() const;
   std::vector<NamedArray> fiber_end_frame() const;
   void plan_fibers(double dt);
-  std::vector<ContactLoad> hold_fibers(ConstPoints expected, std::vector<BodyMotionMap> const& maps);
-  LocalMotions local_motions(ConstPoints expected, std::vector<BodyDrive> const& drives) const;
-  std::vector<ContactLoad> contacts(std::vector<BodyMotionMap> const& maps) const;  // of the bodies with the periphery
-  std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps, std::vector<ContactLoad> const& contacts) const;
+  BodyContacts hold_fibers(ConstPoints expected, std::vector<BodyMotionMap> const& maps);
+  LocalMotions local_motions(ConstPoints expected, std::vector<BodyDrive> const& drives, Eigen::MatrixXd const& between) const;
+  BodyContacts contacts(std::vector<BodyMotionMap> const& maps) const;  // of the bodies with the periphery and each other
+  std::vector<BodyDrive> drives(std::vector<BodyMotionMap> const& maps, BodyContacts const& contacts) const;
   Trial attempt(double dt, StepReport& report);
   ScatteringSolution solve(ConstPoints guess, std::vector<BodyMotionMap> const& maps,
-                           std::vector<ContactLoad> const& contacts, StepReport& report);
+                           BodyContacts const& contacts, StepReport& report);
   void advance(Trial& trial);
   std::string misplaced_prediction(std::vector<BodyMotionMap> const& maps) const;
   std::string misplaced_trial() const;
@@ -105,7 +105,7 @@ class Simulation {
   double time_ = 0.0, dt_ = 0.0;                   // s; dt: to try next
   ScatteringSolution last_, before_;               // of the last two accepted steps
   double last_dt_ = 0.0;
-  std::vector<Vector6> contacts_;  // [n_body] force and torque of the periphery in the last step, pN, pN um
+  std::vector<Vector6> contacts_;  // [n_body] force and torque of contacts in the last step, pN, pN um
 };
 
 }  // namespace asterflow

@@ -287,6 +287,92 @@ TEST(StericRepulsion, of_a_plus_end_that_slides_on_a_body_converges_at_second_or
   EXPECT_LT(norm(middle - fine), 1e-5);                         // um
 }
 
+// Two spheres pressed together with 30 pN along a direction of no symmetry, and what else the scene has.
+std::string pressed_spheres(std::string const& level, std::string const& second) {
+  return R"(
+    [fluid]
+    viscosity = 0.6
+    [[body]]
+    shape = "sphere"
+    radius = 1.5
+    position = [-1.2, -0.6, 0.4]
+    force = [20.0, 20.0, -10.0]
+    order = 8
+    [[body]]
+    shape = "sphere"
+    radius = 1.0
+    position = [1.2, 1.8, -0.8]
+    order = 8
+    )" + second + R"(
+    [steric_repulsion]
+    range = 0.1
+    [run]
+    accuracy = 1e-3
+    interactions = ")" + level + "\"\n";
+}
+
+TEST(StericRepulsion, bodies_come_to_rest_where_they_balance_the_load) {
+  for (char const* level : {"local", "open"})
+    for (char const* second : {"force = [-20.0, -20.0, 10.0]", "motion = \"prescribed\""}) {
+      auto const simulation = simulated(pressed_spheres(level, second), 3.0);  // later they slide off each other
+      auto const& bodies = simulation->bodies();
+      double const gap = norm(bodies[0].pose().position - bodies[1].pose().position) - 2.5;
+      EXPECT_NEAR(gap, 0.07, 1e-4) << level << " " << second;  // 30 = 100 (1 - gap / 0.1)
+    }
+}
+
+TEST(StericRepulsion, between_bodies_is_equal_and_opposite) {
+  Simulation simulation(parse_scene(R"(
+    [fluid]
+    viscosity = 0.6
+    [[body]]
+    shape = "ellipsoid"
+    semi_axes = [2.0, 1.6, 1.5]
+    position = [-1.9, 0.2, 0.0]
+    force = [9.0, 0.0, 2.0]
+    order = 8
+    [[body]]
+    shape = "ellipsoid"
+    semi_axes = [1.0, 1.6, 1.2]
+    rotation_axis = [0.3, 0.2, 1.0]
+    rotation_angle = 30.0
+    position = [1.4, 0.9, 0.3]
+    torque = [3.0, 0.0, 2.0]
+    order = 8
+    [steric_repulsion]
+    [run]
+    interactions = "local"
+    accuracy = 1e-3
+  )", "test.toml"));
+  double largest = 0.0;
+  while (simulation.time() < 6.0) {
+    simulation.step(6.0);
+    Vec3d force{}, torque{};  // on both, about the origin
+    for (std::size_t b : {0, 1}) {
+      RigidBody const& body = simulation.bodies()[b];
+      RigidPose const& pose = body.motion_map().predicted;
+      Vector6 const load = simulation.resistance_alone(b, pose) * body.motion() - body.external_load();
+      force += to_vec3(load.head<3>());
+      torque += to_vec3(load.tail<3>()) + cross(pose.position, to_vec3(load.head<3>()));
+      largest = std::max(largest, load.norm());
+    }
+    EXPECT_LT(norm(force) + norm(torque), 1e-11);
+  }
+  EXPECT_GT(largest, 3.0);
+}
+
+TEST(StericRepulsion, of_bodies_converges_at_second_order) {
+  auto const place = [&](double dt) {
+    std::string text = pressed_spheres("local", "force = [-20.0, 0.0, 10.0]");
+    text.replace(text.find("range = 0.1"), 11, "range = 0.4");  // they touch from the beginning, and slide
+    auto const simulation = simulated(text + "adaptive = false\ntime_step = " + std::to_string(dt), 1.2);
+    return simulation->bodies()[1].pose().position;
+  };
+  Vec3d const rough = place(0.02), middle = place(0.01), fine = place(0.005);
+  EXPECT_LT(norm(middle - fine), norm(rough - middle) / 3.5);
+  EXPECT_GT(norm(rough - middle), 1e-7);  // um
+}
+
 TEST(StericRepulsion, of_wrong_sign_is_refused) {
   std::string text = pressed_scene("");
   text.replace(text.find("range = 0.1"), 11, "range = -0.1");
