@@ -14,7 +14,7 @@ using Sliding = PushingSpec::Sliding;
 // Free sliding: the force at this many d* is below one percent of the largest.
 constexpr double free_reach = 5.0;
 
-// um/pN: what is stiffer than this holds the wall's force without moving.
+// Of d* over the wall's force: what is stiffer than this holds that force without moving.
 constexpr double least_compliance = 1e-12;
 
 // x with x exp(x) = exp(log_z): Lambert's function, by Newton on x + log x = log_z.
@@ -105,8 +105,9 @@ TipLoad Pushing::repulsion(Vec3d free_position, Matrix3 const& compliance, Vec3d
   for (int pass = 0; pass < 6; ++pass) {  // the normal is that of the balanced position
     NearCortex const cortex = cortex_.near(load.anchor);
     Vec3d const n = cortex.normal;
-    double const amplitude = spec_.stall_force * dot(n, tangent), c = std::max(dot(n, compliance * n), least_compliance);
+    double const amplitude = spec_.stall_force * dot(n, tangent);
     if (amplitude <= 0) return {{}, Matrix3::Zero(), free_position};
+    double const c = std::max(dot(n, compliance * n), least_compliance * spec_.range / amplitude);
     double const free_distance = cortex.distance + dot(n, load.anchor - free_position);
     double const force =
         spec_.range / c * lambert(std::log(amplitude * c / spec_.range) - free_distance / spec_.range);
