@@ -160,6 +160,9 @@ void check_ranges(SceneTables const& tables, Scene const& scene) {
   if (margin >= cell)
     tables.dynamic_instability->fail("cortex_margin",
                                      fmt::format("must be less than {:g} um, the least radius of the periphery", cell));
+  if (scene.dynamic_instability->minimal_length >= cell)
+    tables.dynamic_instability->fail("minimal_length",
+                                     fmt::format("must be less than {:g} um, the least radius of the periphery", cell));
   if (scene.pushing && scene.pushing->range >= cell - margin)
     tables.pushing->fail("range", fmt::format("must be less than {:g} um, the least radius of the periphery without cortex_margin",
                                               cell - margin));

@@ -70,6 +70,7 @@ TEST(MechanismSpecs, mechanisms_without_anything_to_act_on_are_refused) {
 
 TEST(MechanismSpecs, ranges_wider_than_the_cell_are_refused) {
   expect_refusal("cortex_margin = 6\n", "[dynamic_instability]: cortex_margin = 6: must be less than 6 um, the least radius");
+  expect_refusal("minimal_length = 9\n", "[dynamic_instability]: minimal_length = 9: must be less than 6 um, the least radius");
   expect_refusal("cortex_margin = 1\n[pushing]\nsliding = \"none\"\nrange = 5\n", "[pushing]: range = 5: must be less than 5 um");
   expect_refusal("[steric_repulsion]\nrange = 7\n", "[steric_repulsion]: range = 7: must be less than 6 um");
 }
