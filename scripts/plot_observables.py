@@ -33,8 +33,12 @@ PANELS = (
     ("work per time", "pN um/s", {"motor_power": "motors", "tip_power": "plus ends", "body_power": "loads on bodies"}),
     ("force on the fluid", "pN", {"net_force_x": "x", "net_force_y": "y", "net_force_z": "z"}),
     ("torque on the fluid about the origin", "pN um", {"net_torque_x": "x", "net_torque_y": "y", "net_torque_z": "z"}),
+    ("force that moves the first body", "pN", {"_force_x": "x", "_force_y": "y", "_force_z": "z"}),
+    ("torque that turns it", "pN um", {"_torque_x": "x", "_torque_y": "y", "_torque_z": "z"}),
+    ("first moment of the forces", "pN um", {f"force_moment_{ij}": ij for ij in ("xx", "yy", "zz", "xy", "xz", "yz")}),
     ("puller index", "", {"puller_index": None}),
     ("flow along x beside the body", "um/s", {"flow_anterior_x": "anterior (-x)", "flow_posterior_x": "posterior (+x)"}),
+    ("flow beside the fibers", "um/s", {"flow_along_fibers": "along them", "flow_in_anterior_asters_x": "along x, anterior"}),
     ("slip between the nodes, relative", "", {"no_slip_residual": None}),
 )
 
@@ -82,7 +86,8 @@ def main():
     bodies = [name[:-2] for name in table if name.endswith("_x") and f"{name[:-2]}_speed" in table]
     body = bodies[0] if bodies else ""
     panels = [panel for panel in PANELS if any(curves(table, body, panel[2]))]
-    figure, axes = plt.subplots(4, 5, figsize=(20, 12), constrained_layout=True)
+    n_row = len(panels) // 5 + 1  # with the lengths
+    figure, axes = plt.subplots(n_row, 5, figsize=(20, 3 * n_row), constrained_layout=True)
     axes = axes.ravel()
     for axis, panel in zip(axes, panels):
         draw_panel(axis, table, body, panel)

@@ -20,6 +20,7 @@ Observables body_observables(Scene const& scene, Frame const& frame) {
   auto const positions = points_of(frame, "body/position");
   auto const orientations = orientations_of(frame);
   auto const velocities = points_of(frame, "body/velocity"), turning = points_of(frame, "body/angular_velocity");
+  auto const forces = points_of(frame, "body/applied_force"), torques = points_of(frame, "body/applied_torque");
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     auto const& name = scene.bodies[b].name;
     add_vector(name, positions.at(b), row);
@@ -34,6 +35,12 @@ Observables body_observables(Scene const& scene, Frame const& frame) {
     row.push_back({name + "_speed", norm(velocities.at(b))});
     add_vector(name + "_angular_velocity", turning.at(b), row);
     row.push_back({name + "_angular_speed", norm(turning.at(b))});
+    if (scene.bodies[b].motion == BodySpec::Motion::free) continue;
+    // Unknown before the first step and in states stored before these loads were.
+    bool const is_known = frame.time > 0.0 && b < forces.size() && b < torques.size();
+    Vec3d const unknown = std::nan("") * Vec3d{1.0, 1.0, 1.0};
+    add_vector(name + "_force", is_known ? forces[b] : unknown, row);
+    add_vector(name + "_torque", is_known ? torques[b] : unknown, row);
   }
   return row;
 }

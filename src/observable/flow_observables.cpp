@@ -42,7 +42,31 @@ PointArray material_velocities(ConstPoints u, Scene const& scene, StoredFibers c
   return velocity;
 }
 
-void add_power(StoredFlow const& flow, Scene const& scene, StoredFibers const& fibers, ConstPoints velocity,
+struct Load {
+  Vec3d force{}, torque{};  // pN; pN um about the origin
+  void add(Vec3d x, Vec3d f, Vec3d couple = {}) {
+    force += f;
+    torque += cross(x, f) + couple;
+  }
+};
+
+
+// From outside on bodies, about their centres; of held ones NaN in states stored before their loads were.
+std::vector<Load> applied_to_bodies(Scene const& scene, Frame const& frame) {
+  PointArray const forces = points_of(frame, "body/applied_force"), torques = points_of(frame, "body/applied_torque");
+  std::vector<Load> loads;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    BodySpec const& body = scene.bodies[b];
+    bool const is_free = body.motion == BodySpec::Motion::free;
+    Vec3d const unknown = std::nan("") * Vec3d{1.0, 1.0, 1.0};
+    if (b < forces.size() && b < torques.size()) loads.push_back({forces[b], torques[b]});
+    else if (is_free) loads.push_back({body.force, body.torque});
+    else loads.push_back({unknown, unknown});
+  }
+  return loads;
+}
+
+void add_power(StoredFlow const& flow, std::span<Load const> applied, StoredFibers const& fibers, ConstPoints velocity,
                ConstPoints tangents, Observables& row) {
   double motors = 0.0, tips = 0.0, bodies = 0.0;
   for (std::size_t i = 0; i < fibers.count(); ++i) {
@@ -52,27 +76,17 @@ void add_power(StoredFlow const& flow, Scene const& scene, StoredFibers const& f
       tips += dot(fibers.plus_end_force[i],
                   value_at_end(velocity.subspan(fibers.first[i], fibers.node_count(i)), 1.0));
   }
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    if (scene.bodies[b].motion == BodySpec::Motion::free)
-      bodies += flow.motions()[b].head<3>().dot(to_eigen(scene.bodies[b].force)) +
-                flow.motions()[b].tail<3>().dot(to_eigen(scene.bodies[b].torque));
+  for (std::size_t b = 0; b < applied.size(); ++b)
+    bodies += flow.motions()[b].head<3>().dot(to_eigen(applied[b].force)) + flow.motions()[b].tail<3>().dot(to_eigen(applied[b].torque));
   row.push_back({"motor_power", motors});
   row.push_back({"tip_power", tips});
   row.push_back({"body_power", bodies});
 }
 
-void add_fibers(StoredFlow const& flow, Scene const& scene, StoredFibers const& fibers, Observables& row) {
+void add_fibers(StoredFlow const& flow, Scene const& scene, Frame const& frame, StoredFibers const& fibers, Observables& row) {
   PointArray const u = flow.incident_at_fibers(), tangents = tangents_of(fibers);
-  add_power(flow, scene, fibers, material_velocities(u, scene, fibers, tangents), tangents, row);
+  add_power(flow, applied_to_bodies(scene, frame), fibers, material_velocities(u, scene, fibers, tangents), tangents, row);
 }
-
-struct Load {
-  Vec3d force{}, torque{};  // pN; pN um about the origin
-  void add(Vec3d x, Vec3d f, Vec3d couple = {}) {
-    force += f;
-    torque += cross(x, f) + couple;
-  }
-};
 
 void add_applied_to_fiber(StoredFibers const& fibers, std::size_t i, ConstPoints nodes, Load& sum) {
   Vec3d const minus_end = value_at_end(nodes, 0.0);
@@ -86,7 +100,7 @@ void add_applied_to_fiber(StoredFibers const& fibers, std::size_t i, ConstPoints
   sum.add(minus_end, -fibers.minus_end_force[i], kind == MinusEnd::clamped ? -fibers.minus_end_torque[i] : Vec3d{});
 }
 
-// From outside on plus ends, along fibers and on free bodies; NaN with held bodies, whose holder is not stored.
+// From outside on plus ends, along fibers and on bodies.
 Load applied_load(StoredFlow const& flow, Scene const& scene, Frame const& frame, StoredFibers const& fibers) {
   Load sum;
   ConstPoints const nodes = flow.radiation().nodes();
@@ -95,11 +109,9 @@ Load applied_load(StoredFlow const& flow, Scene const& scene, Frame const& frame
   PointArray contact_forces = points_of(frame, "body/contact_force"), contact_torques = points_of(frame, "body/contact_torque");
   contact_forces.resize(scene.bodies.size());
   contact_torques.resize(scene.bodies.size());
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    BodySpec const& body = scene.bodies[b];
-    double const known = body.motion == BodySpec::Motion::free ? 1.0 : std::nan("");
-    sum.add(flow.radiation().body_pose(b).position, known * body.force + contact_forces[b], body.torque + contact_torques[b]);
-  }
+  std::vector<Load> const applied = applied_to_bodies(scene, frame);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    sum.add(flow.radiation().body_pose(b).position, applied[b].force + contact_forces[b], applied[b].torque + contact_torques[b]);
   return sum;
 }
 
@@ -179,7 +191,7 @@ Observables flow_observables(Scene const& scene, SceneFlows const& flows, Frame 
   if (scene.run.interactions == Interactions::local || frame.time == 0.0) return nothing();
   StoredFlow const flow(scene, flows, frame);
   Observables row;
-  add_fibers(flow, scene, fibers, row);
+  add_fibers(flow, scene, frame, fibers, row);
   add_moments(flow, scene, flows, frame, fibers, row);
   add_speeds(flow, scene, frame, fibers, row);
   return row;

@@ -49,6 +49,18 @@ void Scattering::move_bodies(std::vector<Vector6> const& loads, bool affine, std
   for (std::size_t b = 0; b < bodies_.size(); ++b) motions[b] = all.segment<6>(static_cast<Eigen::Index>(6 * b));
 }
 
+// What the flow and the fibers on a prescribed body leave to whatever moves it.
+std::vector<Vector6> Scattering::holders(ConstPoints u, std::vector<Vector6> loads, std::span<Vector6 const> motions) const {
+  std::vector<Vector6> result(bodies_.size(), Vector6::Zero());
+  if (std::ranges::all_of(bodies_, &BodyDrive::is_free)) return result;
+  PointArray force_density(u.size());
+  fibers_.add_affine_response(force_density, loads);
+  fibers_.add_loads(u, loads);
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    if (!bodies_[b].is_free) result[b] = resistance(b) * motions[b] - loads[b];
+  return result;
+}
+
 void Scattering::answer(ConstPoints u, std::vector<Vector6> loads, bool affine, Points force_density,
                         std::vector<Vector6>& motions) const {
   motions.assign(bodies_.size(), Vector6::Zero());
@@ -168,7 +180,9 @@ ScatteringSolution Scattering::solve(ConstPoints background, ConstPoints guess) 
   solution.fiber_nodes.assign(fiber_nodes.begin(), fiber_nodes.end());
   for (auto const& body : bodies_) solution.poses.push_back(body.pose);
   solution.force_density.resize(n_fiber_node);
-  answer(ConstPoints(solution.incident).first(n_fiber_node), loads, true, solution.force_density, solution.motions);
+  ConstPoints const at_fibers = ConstPoints(solution.incident).first(n_fiber_node);
+  answer(at_fibers, loads, true, solution.force_density, solution.motions);
+  solution.holders = holders(at_fibers, loads, solution.motions);
   fibers_.add_dipoles(solution.force_density);
   return solution;
 }

@@ -62,6 +62,7 @@ struct ScatteringSolution {
   PointArray incident;           // z, um/s
   PointArray force_density;      // pN/um, on the fluid, at the fibers' nodes
   std::vector<Vector6> motions;  // q
+  std::vector<Vector6> holders;  // [n_body] load that makes a prescribed body move so; zero: free
   PointArray fiber_nodes;        // um, where all this was solved
   std::vector<RigidPose> poses;
   GmresResult gmres;             // with accurate sums
@@ -98,6 +99,7 @@ class Scattering {
               std::vector<Vector6>& motions) const;
 
  private:
+  std::vector<Vector6> holders(ConstPoints u, std::vector<Vector6> faxen_loads, std::span<Vector6 const> motions) const;
   void move_bodies(std::vector<Vector6> const& loads, bool affine, std::vector<Vector6>& motions) const;
   // received += what all objects send in answer to z; affine: with what remains at zero flow
   void add_answer(ConstPoints z, bool affine, Points received, Exchange kind) const;

@@ -49,7 +49,7 @@ struct Simulation::Trial {
   double error = 0.0;     // um
   std::string misplaced;  // what is not where it may be; then nothing else is known
   ScatteringSolution solution;
-  std::vector<Vector6> contacts;  // [n_body]
+  std::vector<Vector6> contacts, applied;  // [n_body]
 };
 
 Simulation::Simulation(Scene scene)
@@ -234,7 +234,7 @@ void Simulation::advance(Trial& trial) {
 
 Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   Timer const timer;
-  Trial trial{.dt = dt, .error = 0.0, .misplaced = {}, .solution = {}, .contacts = {}};
+  Trial trial{.dt = dt, .error = 0.0, .misplaced = {}, .solution = {}, .contacts = {}, .applied = {}};
   std::vector<BodyMotionMap> maps;
   for (auto& body : bodies_) maps.push_back(body.predict(dt));
   plan_fibers(dt);
@@ -245,7 +245,12 @@ Simulation::Trial Simulation::attempt(double dt, StepReport& report) {
   report.prepare_seconds += timer.seconds();
   if (!trial.misplaced.empty()) return trial;
   trial.solution = solve(expected.is_close ? ConstPoints(expected.flow) : ConstPoints{}, maps, contacts, report);
-  for (std::size_t b = 0; b < bodies_.size(); ++b) trial.contacts.push_back(contacts.load(b, trial.solution.motions));
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    trial.contacts.push_back(contacts.load(b, trial.solution.motions));
+    trial.applied.push_back(bodies_[b].is_free() ? bodies_[b].external_load() : Vector6(trial.solution.holders[b] - trial.contacts[b]));
+    if (!radiation_ && background_ && !bodies_[b].is_free())
+      trial.applied[b] -= body_load(*flows_.bodies[b], maps[b].predicted, scene_.fluid.viscosity, *background_);
+  }
   advance(trial);
   trial.misplaced = misplaced_trial();
   return trial;
@@ -260,6 +265,7 @@ void Simulation::accept(Trial&& trial) {
   before_ = std::move(last_);
   last_ = std::move(trial.solution);
   contacts_ = std::move(trial.contacts);
+  applied_ = std::move(trial.applied);
 }
 
 // Why a trial step is not accepted; "" when it is.

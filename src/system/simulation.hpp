@@ -105,7 +105,8 @@ class Simulation {
   double time_ = 0.0, dt_ = 0.0;                   // s; dt: to try next
   ScatteringSolution last_, before_;               // of the last two accepted steps
   double last_dt_ = 0.0;
-  std::vector<Vector6> contacts_;  // [n_body] force and torque of contacts in the last step, pN, pN um
+  // [n_body] force and torque in the last step: of contacts; of the scene, or of what moves a prescribed body
+  std::vector<Vector6> contacts_, applied_;  // pN, pN um
 };
 
 }  // namespace asterflow

@@ -42,7 +42,7 @@ PointArray find_points(std::vector<NamedArray> const& arrays, std::string const&
 }  // namespace
 
 std::vector<NamedArray> Simulation::body_frame() const {
-  PointArray positions, velocities, angular, contact_forces, contact_torques, flow_positions;
+  PointArray positions, velocities, angular, contact_forces, contact_torques, applied_forces, applied_torques, flow_positions;
   std::vector<double> orientations, flow_orientations;
   for (auto const& body : bodies_) {
     positions.push_back(body.pose().position);
@@ -55,6 +55,10 @@ std::vector<NamedArray> Simulation::body_frame() const {
     contact_forces.push_back(to_vec3(contact.head<3>()));
     contact_torques.push_back(to_vec3(contact.tail<3>()));
   }
+  for (Vector6 const& applied : applied_) {
+    applied_forces.push_back(to_vec3(applied.head<3>()));
+    applied_torques.push_back(to_vec3(applied.tail<3>()));
+  }
   for (RigidPose const& pose : last_.poses) {
     Eigen::Quaterniond const q(pose.rotation);
     flow_positions.push_back(pose.position);
@@ -62,6 +66,8 @@ std::vector<NamedArray> Simulation::body_frame() const {
   }
   contact_forces.resize(bodies_.size());  // none before the first step
   contact_torques.resize(bodies_.size());
+  applied_forces.resize(bodies_.size());
+  applied_torques.resize(bodies_.size());
   return {NamedArray::of("body/position", positions, "um"),
           {"body/orientation", {bodies_.size(), 4}, orientations, ""},
           NamedArray::of("body/flow_position", flow_positions, "um"),
@@ -69,7 +75,9 @@ std::vector<NamedArray> Simulation::body_frame() const {
           NamedArray::of("body/velocity", velocities, "um/s"),
           NamedArray::of("body/angular_velocity", angular, "rad/s"),
           NamedArray::of("body/contact_force", contact_forces, "pN"),
-          NamedArray::of("body/contact_torque", contact_torques, "pN um")};
+          NamedArray::of("body/contact_torque", contact_torques, "pN um"),
+          NamedArray::of("body/applied_force", applied_forces, "pN"),
+          NamedArray::of("body/applied_torque", applied_torques, "pN um")};
 }
 
 std::vector<NamedArray> Simulation::fiber_frame() const {
