@@ -27,8 +27,9 @@ class Pushing {
 
   void begin_step() { trial_ = now_; }
   double growth_factor_before(std::size_t tip) const { return growth_factor(now_[tip].compression); }
-  // What a tip meets in a step at whose end its compression is given, pN.
-  void surround(std::size_t tip, double rate_without_load, double compression, TipSurroundings& surroundings) const;
+  // What a tip meets in a step in which it pushes for so long, s, and at whose end its compression is given, pN.
+  void surround(std::size_t tip, double rate_without_load, double pushed, double compression,
+                TipSurroundings& surroundings) const;
   void surround(std::size_t tip, double rate_without_load, TipSurroundings& surroundings) const;  // as before the step
 
   // Holds a tip that has made contact in this step; `reached`: where it was then, `left`: of the step after that, s.
@@ -51,6 +52,7 @@ class Pushing {
  private:
   struct Contact {
     bool is_made = false;
+    double age = 0.0;                 // s, since contact was made
     double span = 0.0;                // s, between the two anchors; 0: there is one only, where contact was made
     Vec3d anchor{}, anchor_before{};  // um
     Vec3d force{};                    // pN, on the tip
@@ -58,6 +60,7 @@ class Pushing {
     std::optional<double> sliding_time = {};  // s, of the step, when contact was made in it
   };
 
+  double share_of_end(Contact const& contact, double pushed) const;
   TimeScheme scheme(Contact const& contact, double dt) const;
   TipLoad spring(std::size_t tip, double dt) const;
   TipLoad repulsion(Vec3d free_position, Matrix3 const& compliance, Vec3d tangent) const;

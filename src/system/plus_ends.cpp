@@ -159,18 +159,18 @@ void PlusEnds::plan(double dt, Fibers& fibers, std::span<RigidPose const> poses,
 // The length at the end of the step for which growth and the compression that it causes agree.
 double PlusEnds::pushing_length(std::size_t i, TipAnswer const& answer, Vec3d tangent, double planned) const {
   auto const& trial = growth_.trial_tips()[i];
-  double const pushed = growth_.spec().growth_speed * (dt_ - trial.contact_at.value_or(0.0));
+  double const time = dt_ - trial.contact_at.value_or(0.0), pushed = growth_.spec().growth_speed * time;
   double const planned_factor = surroundings_[i].pushing_growth_factor;
   auto const excess = [&](double length) {
     Vec3d const position = answer.position + (length - planned) * tangent;
     TipLoad const load = pushing_->load(i, position, answer.compliance, tangent, dt_);
     double const compression = std::max(0.0, -dot(balanced_force(load, position, answer.compliance), tangent));
     TipSurroundings around;
-    pushing_->surround(i, growth_.spec().catastrophe_rate, compression, around);
+    pushing_->surround(i, growth_.spec().catastrophe_rate, time, compression, around);
     return planned + pushed * (around.pushing_growth_factor - planned_factor) - length;
   };
   TipSurroundings unloaded;
-  pushing_->surround(i, growth_.spec().catastrophe_rate, 0.0, unloaded);
+  pushing_->surround(i, growth_.spec().catastrophe_rate, time, 0.0, unloaded);
   return root(excess, planned - pushed * planned_factor,
               planned + pushed * (unloaded.pushing_growth_factor - planned_factor), 1e-9);
 }
@@ -184,8 +184,8 @@ void PlusEnds::hold_pushing(std::size_t i, Fibers& fibers, TipAnswer const& answ
   TipLoad const load = pushing_->load(i, position, answer.compliance, tangent, dt_);
   double const compression = std::max(0.0, -dot(balanced_force(load, position, answer.compliance), tangent));
   TipSurroundings around = surroundings_[i];
-  pushing_->surround(i, growth_.spec().catastrophe_rate, compression, around);
   double const pushed = dt_ - trial.contact_at.value_or(0.0);
+  pushing_->surround(i, growth_.spec().catastrophe_rate, pushed, compression, around);
   errors_[i] = error_share * pushed * growth_.spec().growth_speed *
                std::abs(around.pushing_growth_factor - logarithmic_mean(pushing_->growth_factor_before(i),
                                                                         pushing_->growth_factor(compression)));

@@ -129,11 +129,32 @@ TEST(Pushing, slides_at_the_speed_of_force_over_friction) {
 
 TEST(Pushing, rates_follow_the_force) {
   Pushing pushing = pushing_of({.stall_force = 2.0, .minimal_catastrophe_rate = 0.3});
+  pushing.make_contact(0, {0, 0, 4.9}, 1000.0);
+  pushing.advance(0, true, {}, {0, 0, 4.9}, {0, 0, 1}, 1000.0);  // an old contact
+  pushing.accept();
   TipSurroundings around;
-  pushing.surround(0, 0.1, 3.0, around);
+  pushing.surround(0, 0.1, 1.0, 3.0, around);
   double const factor = std::exp(-1.5);
   EXPECT_DOUBLE_EQ(around.pushing_growth_factor, 1.5 / (std::exp(1.5) - 1));  // exact for F linear in L
   EXPECT_DOUBLE_EQ(around.pushing_catastrophe_rate, 0.5 * (0.3 + 0.1 / factor));  // Eq. 7
+}
+
+TEST(Pushing, load_that_rises_steeply_at_first_slows_growth_from_the_beginning) {
+  // F = t^0.6 from contact on, small beside F_P: 1 - V_g / V_g0 is its integral over F_P, whatever the steps.
+  Pushing pushing = pushing_of({.stall_force = 1e4, .minimal_catastrophe_rate = 0.3});
+  double const dt = 0.25;
+  double integral = 0.0;
+  for (int step = 0; step < 8; ++step) {
+    double const after = std::pow((step + 1) * dt, 0.6);
+    TipSurroundings around;
+    pushing.begin_step();
+    if (step == 0) pushing.make_contact(0, {0, 0, 4.9}, dt);
+    pushing.surround(0, 0.1, dt, after, around);
+    integral += dt * (1 - around.pushing_growth_factor) * 1e4;
+    pushing.advance(0, true, {0, 0, -after}, {0, 0, 4.9}, {0, 0, 1}, dt);
+    pushing.accept();
+  }
+  EXPECT_NEAR(integral, std::pow(2.0, 1.6) / 1.6, 1e-3);
 }
 
 TEST(Pushing, straight_fiber_against_the_wall_grows_by_the_law_of_force_and_speed) {
