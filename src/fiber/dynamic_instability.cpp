@@ -136,7 +136,6 @@ void DynamicInstability::plan(Fibers& fibers, std::size_t i) const {
   auto& plan = fibers.plan(tip.fiber);
   plan.length = tip.length;
   plan.is_newborn = tip.is_newborn;
-  plan.has_contact = tip.contact_at.has_value();
 }
 
 TipState DynamicInstability::state_of(std::size_t fiber) const {

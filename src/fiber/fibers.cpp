@@ -66,7 +66,7 @@ TimeScheme Fibers::scheme_of(Fiber const& fiber) const {
 
 // Accepted states whose motion goes on in this step.
 int Fibers::usable_past(Fiber const& fiber) const {
-  return fiber.plan.is_newborn || fiber.plan.has_contact ? 1 : fiber.n_past;
+  return fiber.plan.is_newborn ? 1 : fiber.n_past;
 }
 
 // The shape at the end of the step, linearly extrapolated at fixed material coordinates and put on its site.
@@ -269,7 +269,6 @@ void Fibers::accept() {
       std::swap(fiber.past[0], fiber.newborn);
       fiber.n_past = 1;
     }
-    if (fiber.plan.has_contact) fiber.n_past = 0;  // neither does its velocity in this step say what comes
     fiber.site = fiber.plan.site;
     std::swap(fiber.past[2], fiber.past[1]);
     std::swap(fiber.past[1], fiber.past[0]);

@@ -43,7 +43,6 @@ class Fibers {
     std::vector<NodeLoad> node_loads = {};  // [n_node] or none
     Vec3d tip_jump{};  // pN, of the tip's force within the step; `tip` has its mean over the step
     bool is_newborn = false;   // start again as a straight fiber at `site`, wherever it was before
-    bool has_contact = false;  // that begins: the velocities before say nothing about those after
   };
 
   explicit Fibers(double viscosity);  // pN s / um^2
