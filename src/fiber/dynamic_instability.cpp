@@ -52,15 +52,15 @@ struct DynamicInstability::Course {
   double until_end = never;  // s, to the cortex or to the minimal length
 };
 
-DynamicInstability::Course DynamicInstability::course(Tip const& tip, TipSurroundings const& around) const {
+DynamicInstability::Course DynamicInstability::course(Tip const& tip, TipSurroundings const& around,
+                                                      double capture_rate) const {
   double const spare = std::max(tip.length - spec_.minimal_length, 0.0);
   switch (tip.state) {
     case TipState::growing:
-      return {spec_.growth_speed, spec_.catastrophe_rate, around.capture_rate,
+      return {spec_.growth_speed, spec_.catastrophe_rate, capture_rate,
               waiting_time(std::max(around.clearance, 0.0), spec_.growth_speed + around.approach_speed)};
     case TipState::pushing:
-      return {spec_.growth_speed * around.pushing_growth_factor, around.pushing_catastrophe_rate, around.capture_rate,
-              never};
+      return {spec_.growth_speed * around.pushing_growth_factor, around.pushing_catastrophe_rate, capture_rate, never};
     case TipState::captured:
       return {around.captured_speed, around.detachment_rate, 0.0, waiting_time(spare, -around.captured_speed)};
     default:
@@ -100,21 +100,25 @@ DynamicInstability::Tip DynamicInstability::advanced(std::size_t index, double d
   tip.contact_at = tip.captured_at = tip.released_at = std::nullopt;
   double left = dt;
   while (true) {
-    Course const course = this->course(tip, around);
+    bool const has_rate = !around.capture_rates.empty();
+    Course const course = this->course(tip, around, has_rate ? around.capture_rates[0].rate : 0.0);
+    double const until_change = has_rate ? std::max(around.capture_rates[0].until - (dt - left), 0.0) : never;
     auto const missing = [&](Draw draw, double hazard) {
       return exponential_random(seed_, tip.fiber, tip.event, draw) - hazard;
     };
     double const until_switch = waiting_time(missing(next_event, tip.hazard), course.rate);
     double const until_capture =
         course.capture_rate > 0 ? waiting_time(missing(capture, tip.capture_hazard), course.capture_rate) : never;
-    double const interval = std::min({left, until_switch, until_capture, course.until_end});
+    double const interval = std::min({left, until_switch, until_capture, until_change, course.until_end});
     tip.length += course.speed * interval;
     around.clearance -= (course.speed + around.approach_speed) * interval;
     tip.hazard += course.rate * interval;
     tip.capture_hazard += course.capture_rate * interval;
-    if (left < std::min({until_switch, until_capture, course.until_end})) return tip;
+    if (left < std::min({until_switch, until_capture, until_change, course.until_end})) return tip;
     left -= interval;
-    if (interval == course.until_end && course.until_end <= until_switch) {
+    if (interval == until_change) {
+      around.capture_rates = around.capture_rates.subspan(1);
+    } else if (interval == course.until_end && course.until_end <= until_switch) {
       reach_end(tip, around, dt - left);
     } else if (interval == until_capture) {
       tip.state = TipState::captured;

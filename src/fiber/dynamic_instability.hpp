@@ -20,6 +20,12 @@ namespace asterflow {
 
 class Fibers;
 
+// A rate up to a time after the beginning of the step.
+struct CaptureRate {
+  double until;  // s
+  double rate;   // 1/s
+};
+
 // What a plus end meets during a step; rates and factors are means over the step.
 struct TipSurroundings {
   double clearance = std::numeric_limits<double>::infinity();  // um, from the tip to the cortex along the fiber
@@ -27,7 +33,7 @@ struct TipSurroundings {
   bool can_push = false;        // at the cortex: grows on against it; else turns back
   double pushing_growth_factor = 1.0;     // of the growth speed of a pushing tip, >= 0
   double pushing_catastrophe_rate = 0.0;  // 1/s, of a pushing tip
-  double capture_rate = 0.0;              // 1/s, of a growing or pushing tip
+  std::span<CaptureRate const> capture_rates = {};  // of a growing or pushing tip, in order of time; then none
   double detachment_rate = 0.0;           // 1/s, of a captured tip
   double captured_speed = 0.0;            // um/s, at which a captured fiber lengthens
 };
@@ -78,7 +84,7 @@ class DynamicInstability {
  private:
   struct Course;
 
-  Course course(Tip const& tip, TipSurroundings const& surroundings) const;
+  Course course(Tip const& tip, TipSurroundings const& surroundings, double capture_rate) const;
   void switch_state(Tip& tip, double time) const;
   void reach_end(Tip& tip, TipSurroundings& surroundings, double time) const;
 

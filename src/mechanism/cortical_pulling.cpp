@@ -12,6 +12,7 @@ namespace asterflow {
 namespace {
 
 constexpr std::uint64_t which_site = 3;  // draw of a fiber, beside those of dynamic instability
+constexpr double never = std::numeric_limits<double>::infinity();
 
 // Farthest extent of a surface along an axis, um: the best of a grid, then steps to better neighbours that halve.
 double extent(Shape const& shape, Vec3d axis) {
@@ -43,12 +44,13 @@ CorticalPulling::CorticalPulling(CorticalPullingSpec const& spec, CortexSurface 
     sites_ = even_sites(cortex.shape(), spec.posterior, spec.sites);
   else
     sites_ = random_sites(cortex.shape(), spec.sites, seed);
-  is_taken_.assign(sites_.size(), 0);
 }
 
 void CorticalPulling::add_tip() {
   now_.emplace_back();
   trial_ = now_;
+  visits_.emplace_back();
+  rates_.emplace_back();
 }
 
 double CorticalPulling::rate_at(Vec3d site, double plane) const {
@@ -59,49 +61,89 @@ double CorticalPulling::rate_at(Vec3d site, double plane) const {
          (spec_.posterior_plane_factor + part * (spec_.posterior_pole_factor - spec_.posterior_plane_factor));
 }
 
-double CorticalPulling::reachable(Vec3d place, double plane, std::vector<std::pair<int, double>>& rates) const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < sites_.size(); ++i) {
-    if (is_taken_[i] || norm(sites_[i] - place) > spec_.reach) continue;
-    rates.emplace_back(static_cast<int>(i), rate_at(sites_[i], plane));
-    sum += rates.back().second;
-  }
-  return sum;
+void CorticalPulling::begin_step(double dt) {
+  dt_ = dt;
+  trial_ = now_;
+  available_.assign(sites_.size(), {0.0, never});
+  for (Hold const& hold : now_)
+    if (hold.site >= 0) available_[hold.site].from = never;
 }
 
-void CorticalPulling::surround(std::size_t tip, Vec3d place, double plane, TipSurroundings& surroundings) const {
-  std::vector<std::pair<int, double>> rates;
-  surroundings.capture_rate = reachable(place, plane, rates);
+void CorticalPulling::surround(std::size_t tip, Path const& path, double plane, TipSurroundings& surroundings) {
+  auto& visits = visits_[tip];
+  visits.clear();
+  double const a = dot(path.velocity, path.velocity), until = std::min(path.until, dt_);
+  for (std::size_t i = 0; i < sites_.size(); ++i) {  // |site - start - t velocity| <= reach
+    Vec3d const away = sites_[i] - path.start;
+    double const b = dot(away, path.velocity), c = dot(away, away) - spec_.reach * spec_.reach;
+    double const root = std::sqrt(std::max(b * b - a * c, 0.0));
+    double const enter = c <= 0 ? 0.0 : b > root ? c / (b + root) : never;
+    if (!(enter <= until) || (c > 0 && b * b < a * c)) continue;
+    bool const stays = (b + root) >= a * until;
+    visits.push_back({static_cast<int>(i), rate_at(sites_[i], plane), enter, stays ? dt_ : (b + root) / a});
+  }
+  set_rates(tip);
+  surroundings.capture_rates = rates_[tip];
   surroundings.detachment_rate = 1.0 / spec_.residence_time;
   surroundings.captured_speed = now_[tip].speed;
 }
 
-std::vector<std::size_t> CorticalPulling::assign(std::span<DynamicInstability::Tip const> trial, ConstPoints places,
-                                                 double plane) {
-  trial_ = now_;
-  std::vector<std::size_t> captured, late;
-  for (std::size_t i = 0; i < trial.size(); ++i)
-    if (trial[i].captured_at) captured.push_back(i);
-  std::sort(captured.begin(), captured.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(*trial[a].captured_at, trial[a].fiber) < std::pair(*trial[b].captured_at, trial[b].fiber);
-  });
-  std::vector<char> is_given(sites_.size(), 0);
-  for (std::size_t const i : captured) {
-    std::vector<std::pair<int, double>> rates;
-    double rest = reachable(places[i], plane, rates) * uniform_random(seed_, trial[i].fiber, trial[i].event, which_site);
-    int site = -1;
-    for (auto const& [candidate, rate] : rates) {
-      if (rest > 0) site = candidate;
-      rest -= rate;
-    }
-    if (site < 0 || is_given[site]) {
-      late.push_back(i);
-      continue;
-    }
-    is_given[site] = 1;
-    trial_[i] = {.site = site};
+void CorticalPulling::set_rates(std::size_t tip) {
+  auto& rates = rates_[tip];
+  rates.clear();
+  std::vector<std::pair<double, double>> changes;  // of the rate, at a time
+  for (Visit const& visit : visits_[tip]) {
+    double const from = std::max(visit.enter, available_[visit.site].from);
+    double const until = std::min(visit.leave, available_[visit.site].until);
+    if (!(from < until)) continue;
+    changes.emplace_back(from, visit.rate);
+    changes.emplace_back(until, -visit.rate);
   }
-  return late;
+  if (changes.empty()) return;
+  std::sort(changes.begin(), changes.end());
+  double rate = 0.0;
+  for (auto const& [time, change] : changes) {
+    if (time > 0) rates.push_back({time, std::max(rate, 0.0)});
+    rate += change;
+  }
+}
+
+std::vector<std::size_t> CorticalPulling::change(int site) {
+  std::vector<std::size_t> changed;
+  for (std::size_t tip = 0; tip < visits_.size(); ++tip)
+    if (std::any_of(visits_[tip].begin(), visits_[tip].end(), [&](Visit const& v) { return v.site == site; })) {
+      set_rates(tip);
+      changed.push_back(tip);
+    }
+  return changed;
+}
+
+std::vector<std::size_t> CorticalPulling::let_go(std::size_t tip, double time) {
+  int const site = now_[tip].site;
+  available_[site].from = time;
+  return change(site);
+}
+
+std::vector<std::size_t> CorticalPulling::capture(std::size_t tip, DynamicInstability::Tip const& trial, double time) {
+  auto const reaches = [&](Visit const& visit) {
+    auto const [from, until] = available_[visit.site];
+    double const rounding = 1e-12 * dt_;
+    return std::max(visit.enter, from) <= time + rounding && time <= std::min(visit.leave, until) + rounding;
+  };
+  double sum = 0.0;
+  for (Visit const& visit : visits_[tip])
+    if (reaches(visit)) sum += visit.rate;
+  double rest = sum * uniform_random(seed_, trial.fiber, trial.event, which_site);
+  int site = -1;
+  for (Visit const& visit : visits_[tip]) {
+    if (!reaches(visit)) continue;
+    if (rest > 0) site = visit.site;
+    rest -= visit.rate;
+  }
+  trial_[tip] = {.site = site};
+  if (site < 0) return {};
+  available_[site].until = time;
+  return change(site);
 }
 
 Vec3d CorticalPulling::pull(Vec3d plus_end, Vec3d tangent) const {
@@ -119,13 +161,6 @@ void CorticalPulling::advance(std::size_t tip, bool is_captured, Vec3d pull, dou
   trial_[tip] = is_captured ? Hold{trial_[tip].site, pull, speed} : Hold{};
 }
 
-void CorticalPulling::accept() {
-  now_ = trial_;
-  std::fill(is_taken_.begin(), is_taken_.end(), 0);
-  for (Hold const& hold : now_)
-    if (hold.site >= 0) is_taken_[hold.site] = 1;
-}
-
 std::vector<NamedArray> CorticalPulling::state() const {
   std::vector<double> values;
   for (Hold const& h : now_) values.insert(values.end(), {double(h.site), h.pull.x, h.pull.y, h.pull.z, h.speed});
@@ -138,7 +173,7 @@ void CorticalPulling::restore(std::span<NamedArray const> state) {
     double const* v = &values[5 * i];
     trial_[i] = {static_cast<int>(v[0]), {v[1], v[2], v[3]}, v[4]};
   }
-  accept();
+  now_ = trial_;
 }
 
 }  // namespace asterflow

@@ -23,11 +23,22 @@ class CorticalPulling {
   double rate_at(Vec3d site, double plane) const;                 // 1/s; the dividing plane along the axis, um
   int site_of(std::size_t tip) const { return now_[tip].site; }   // -1: none
 
-  // What a tip at that place meets in a step. `plane`: where the dividing plane is, um.
-  void surround(std::size_t tip, Vec3d place, double plane, TipSurroundings& surroundings) const;
-  // After the tips have been advanced: gives sites to those captured. Returns the tips that come too late: their
-  // capture must not happen.
-  std::vector<std::size_t> assign(std::span<DynamicInstability::Tip const> trial, ConstPoints places, double plane);
+  // The way of a plus end in a step: straight until it stops, if it does.
+  struct Path {
+    Vec3d start;     // um
+    Vec3d velocity;  // um/s
+    double until;    // s
+  };
+
+  void begin_step(double dt);
+  // What a tip on that path meets in the step, of sites that are free at its beginning; the rates are valid until they
+  // change by one of the calls below. `plane`: where the dividing plane is, um.
+  void surround(std::size_t tip, Path const& path, double plane, TipSurroundings& surroundings);
+  // A tip is let go, or captured, at a time after the beginning of the step, s: its site is free from then on, or is
+  // chosen and taken. Returns the tips whose rates that changes.
+  std::vector<std::size_t> let_go(std::size_t tip, double time);
+  std::vector<std::size_t> capture(std::size_t tip, DynamicInstability::Tip const& trial, double time);
+  std::span<CaptureRate const> rates(std::size_t tip) const { return rates_[tip]; }
 
   // Force on a captured plus end, pN.
   Vec3d pull(Vec3d plus_end, Vec3d tangent) const;
@@ -38,7 +49,7 @@ class CorticalPulling {
 
   // Completes a step of a tip: the pull (pN) and how fast the fiber lengthens (um/s) at its end.
   void advance(std::size_t tip, bool is_captured, Vec3d pull, double speed);
-  void accept();
+  void accept() { now_ = trial_; }
 
   std::vector<NamedArray> state() const;
   void restore(std::span<NamedArray const> state);
@@ -50,8 +61,19 @@ class CorticalPulling {
     double speed = 0.0;  // um/s
   };
 
-  // Free sites in reach of a place and the sum of their rates.
-  double reachable(Vec3d place, double plane, std::vector<std::pair<int, double>>& rates) const;
+  // Of a tip in reach of a site.
+  struct Visit {
+    int site;
+    double rate;          // 1/s
+    double enter, leave;  // s
+  };
+
+  struct Availability {
+    double from, until;  // s
+  };
+
+  void set_rates(std::size_t tip);
+  std::vector<std::size_t> change(int site);
 
   CorticalPullingSpec spec_;
   CortexSurface cortex_;
@@ -59,7 +81,11 @@ class CorticalPulling {
   PointArray sites_;
   double pole_ = 0.0;  // um, of the cortex along the axis
   std::vector<Hold> now_, trial_;
-  std::vector<char> is_taken_;  // [n_site] by a tip at the last accepted time
+  // Of the step:
+  double dt_ = 0.0;
+  std::vector<Availability> available_;          // [n_site]
+  std::vector<std::vector<Visit>> visits_;       // [n_tip]
+  std::vector<std::vector<CaptureRate>> rates_;  // [n_tip]
 };
 
 }  // namespace asterflow

@@ -58,7 +58,6 @@ void PlusEnds::add(std::size_t fiber, double length, double spring_stiffness) {
   if (pushing_) pushing_->add_tip(spring_stiffness);
   if (pulling_) pulling_->add_tip();
   surroundings_.emplace_back();
-  places_.emplace_back();
   velocities_.emplace_back();
   speeds_.push_back(0.0);
   errors_.push_back(0.0);
@@ -104,17 +103,34 @@ TipSurroundings PlusEnds::surroundings(std::size_t i, Fibers const& fibers, std:
   double const growth_speed = growth_.spec().growth_speed;
   if (pushing_) pushing_->surround(i, growth_.spec().catastrophe_rate, around);
   if (pulling_) {
-    places_[i] = tip + std::min(0.5 * dt * growth_speed, around.clearance) * tangent;
-    pulling_->surround(i, places_[i], plane_, around);
+    double const speed = growth_.tips()[i].state == TipState::pushing ? 0.0 : growth_speed;
+    double const approach = speed + around.approach_speed;
+    pulling_->surround(i, {tip, velocities_[i] + speed * tangent, speed > 0 && approach > 0 ? around.clearance / approach : dt},
+                       plane_, around);
   }
   return around;
 }
 
-// Tips that come too late for their site are not captured.
+// In order of time: sites that let go are free from then on, those that capture are taken.
 void PlusEnds::share_sites(double dt) {
-  for (std::size_t const i : pulling_->assign(growth_.trial_tips(), places_, plane_)) {
-    surroundings_[i].capture_rate = 0.0;
-    growth_.set_trial(i, growth_.advanced(i, dt, surroundings_[i]));
+  auto const& trial = growth_.trial_tips();
+  std::vector<char> is_settled(trial.size(), 0);
+  auto const advance_again = [&](std::vector<std::size_t> const& changed) {
+    for (std::size_t const i : changed) {
+      surroundings_[i].capture_rates = pulling_->rates(i);
+      if (!is_settled[i]) growth_.set_trial(i, growth_.advanced(i, dt, surroundings_[i]));
+    }
+  };
+  for (std::size_t i = 0; i < trial.size(); ++i)
+    if (trial[i].released_at && growth_.tips()[i].state == TipState::captured)
+      advance_again(pulling_->let_go(i, *trial[i].released_at));
+  while (true) {
+    std::optional<std::size_t> next;
+    for (std::size_t i = 0; i < trial.size(); ++i)
+      if (trial[i].captured_at && !is_settled[i] && (!next || *trial[i].captured_at < *trial[*next].captured_at)) next = i;
+    if (!next) return;
+    is_settled[*next] = 1;
+    advance_again(pulling_->capture(*next, trial[*next], *trial[*next].captured_at));
   }
 }
 
@@ -145,7 +161,12 @@ void PlusEnds::plan(double dt, Fibers& fibers, std::span<RigidPose const> poses,
     growth_.plan(fibers);
     return;
   }
-  plane_ = dividing_body_ < 0 ? fixed_plane_ : dot(poses[dividing_body_].position, posterior_);
+  plane_ = fixed_plane_;
+  if (dividing_body_ >= 0) {  // in the middle of the step
+    Vector6 const& motion = motions[dividing_body_];
+    plane_ = dot(poses[dividing_body_].position + 0.5 * dt * Vec3d{motion[0], motion[1], motion[2]}, posterior_);
+  }
+  if (pulling_) pulling_->begin_step(dt);
   auto const n = static_cast<long>(surroundings_.size());
   parallel_for("PlusEnds::surroundings", n,
                [&](long i) { surroundings_[i] = surroundings(i, fibers, poses, motions, dt); });

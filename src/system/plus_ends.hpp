@@ -60,7 +60,6 @@ class PlusEnds {
 
   double dt_ = 0.0, plane_ = 0.0;  // of the step: s, um
   std::vector<TipSurroundings> surroundings_;
-  PointArray places_;              // [n_tip] where sites look for tips, um
   PointArray velocities_;          // [n_tip] um/s, of the material at the tip
   std::vector<double> speeds_;     // [n_tip] um/s, of captured fibers
   std::vector<double> errors_;     // [n_tip] um

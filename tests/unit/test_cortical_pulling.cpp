@@ -101,27 +101,32 @@ TEST(CorticalPulling, captures_once_a_site_and_at_the_rate) {
   DynamicInstability tips({.catastrophe_rate = 0.0}, 3);
   CorticalPulling pulling(spec, ellipsoid(), 3);
   int const n = 3000;
-  PointArray const places(n, Vec3d{0, 0, 1.8});
   for (int i = 0; i < n; ++i) tips.add(i, 1.0), pulling.add_tip();
   std::vector<TipSurroundings> around(n);
-  for (int i = 0; i < n; ++i) pulling.surround(i, places[i], 0.0, around[i]);
+  pulling.begin_step(1.5);
+  for (int i = 0; i < n; ++i) pulling.surround(i, {{0, 0, 1.8}, {}, 1.5}, 0.0, around[i]);
   tips.advance(1.5, around);
   double captured = 0;
   for (auto const& tip : tips.trial_tips()) captured += tip.state == TipState::captured;
   double const expected = 1 - std::exp(-0.4 * 1.5);
   EXPECT_NEAR(captured / n, expected, 4 * std::sqrt(expected * (1 - expected) / n));
-  EXPECT_EQ(pulling.assign(tips.trial_tips(), places, 0.0).size(), captured - 1);  // one fiber a site
+  auto const& first = tips.trial_tips()[0];  // one fiber a site
+  EXPECT_EQ(pulling.capture(0, first, 0.5).size(), n);
+  pulling.surround(1, {{0, 0, 1.8}, {}, 1.5}, 0.0, around[1]);
+  ASSERT_EQ(around[1].capture_rates.size(), 1u);
+  EXPECT_EQ(around[1].capture_rates[0].until, 0.5);
 }
 
 TEST(CorticalPulling, holds_for_the_residence_time_on_average) {
   DynamicInstability tips({.catastrophe_rate = 0.0}, 5);
   int const n = 3000;
   for (int i = 0; i < n; ++i) tips.add(i, 100.0);
-  std::vector<TipSurroundings> around(n, {.capture_rate = 1e9, .detachment_rate = 1.0 / 20.0});
+  std::vector<CaptureRate> const at_once{{1.0, 1e9}};
+  std::vector<TipSurroundings> around(n, {.capture_rates = at_once, .detachment_rate = 1.0 / 20.0});
   tips.advance(1e-6, around);
   tips.accept();
   double held = 0.0;
-  for (auto& one : around) one.capture_rate = 0.0;
+  for (auto& one : around) one.capture_rates = {};
   for (int step = 0; step < 400; ++step) {
     tips.advance(0.5, around);
     for (auto const& tip : tips.trial_tips())
