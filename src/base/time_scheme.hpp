@@ -18,9 +18,10 @@ inline TimeScheme second_order_scheme(double dt, double dt_before) {
   return {dt, (1 + 2 * w) / (1 + w), 1 + w, -w * w / (1 + w)};
 }
 
-// A velocity that jumps by V within a step is taken up late: what follows stays behind by delay x dt x V (equal steps: dt V / 2),
-// unless the step moves by that much more.
-inline double delay(TimeScheme const& scheme) { return (scheme.a1 - 1) / scheme.a1; }
+// A velocity that jumps by V after the share s of a step is taken up late by a scheme that extrapolates: right at the end
+// of the step, and after the next, if this one has the velocity late_share (1 - s) V besides the mean (1 - s) V, and the next
+// one late_share s V besides V, each with its own share (equal steps: 1 / 2; the past as if V had acted always).
+inline double late_share(TimeScheme const& scheme) { return scheme.a0 - 1; }
 
 // The fraction of (corrector - predictor) that is the local error of the second-order scheme, when the predictor
 // extrapolates the states at t, t - dt_1 and t - dt_1 - dt_2 quadratically (Milne's device).

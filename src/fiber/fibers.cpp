@@ -144,7 +144,7 @@ void Fibers::prepare_again(std::size_t i, std::span<BodyMotionMap const> bodies)
   set_history(fiber, scheme);
   MinusEndSite const& site = fiber.plan.site;
   TipLoad tip = fiber.plan.tip;
-  tip.force += delay(scheme) * fiber.plan.tip_jump;
+  tip.force += late_share(scheme) * ((1 - fiber.plan.jump_at) * fiber.plan.tip_jump + fiber.late_force);
   FiberStep const step{.basis = &fiber_basis(own.n_node),
                        .scheme = scheme,
                        .bending_rigidity = own.bending_rigidity,
@@ -276,6 +276,7 @@ void Fibers::accept() {
     std::swap(fiber.tension, fiber.trial_tension);
     fiber.ends = fiber.trial_ends;
     fiber.load = fiber.plan.load;
+    fiber.late_force = fiber.plan.jump_at * fiber.plan.tip_jump;
     fiber.n_past = std::min(fiber.n_past + 1, 3);
   }
   dt_2_ = dt_1_;

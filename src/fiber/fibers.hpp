@@ -41,7 +41,8 @@ class Fibers {
     TipLoad tip;
     MinusEndSite site;
     std::vector<NodeLoad> node_loads = {};  // [n_node] or none
-    Vec3d tip_jump{};  // pN, of the tip's force within the step; `tip` has its mean over the step
+    Vec3d tip_jump{};      // pN, of the tip's force within the step; `tip` has its mean over the step
+    double jump_at = 0.0;  // after this share of the step
     bool is_newborn = false;   // start again as a straight fiber at `site`, wherever it was before
   };
 
@@ -119,6 +120,7 @@ class Fibers {
     std::vector<double> tension, trial_tension;  // [n_node] pN
     EndForces ends, trial_ends;
     FiberLoad load;
+    Vec3d late_force{};  // pN: share of the last step before a jump of the tip's force, times that
     FiberResponse response;
     OwnFlow own_flow;  // of a nonlocal fiber
     double error = 0.0;  // um
@@ -126,6 +128,7 @@ class Fibers {
 
   NamedArray stored_ends() const;
   NamedArray stored_loads() const;
+  NamedArray stored_late_forces() const;
   void lay_out();
   void add_to_bodies(std::span<Vector6> loads) const;  // fiber_loads_
   void predict(Fiber& fiber, std::span<BodyMotionMap const> bodies) const;

@@ -39,6 +39,12 @@ NamedArray Fibers::stored_loads() const {
   return {"fiber/load", {count(), 4}, values, "pN/um"};
 }
 
+NamedArray Fibers::stored_late_forces() const {
+  PointArray forces;
+  for (Fiber const& fiber : fibers_) forces.push_back(fiber.late_force);
+  return NamedArray::of("fiber/late_force", forces, "pN");
+}
+
 std::vector<NamedArray> Fibers::state() const {
   std::vector<NamedArray> arrays;
   for (int past = 0; past < 3; ++past) {
@@ -60,6 +66,7 @@ std::vector<NamedArray> Fibers::state() const {
   arrays.push_back(NamedArray::of("fiber/tension", std::move(tensions), "pN"));
   arrays.push_back(stored_ends());
   arrays.push_back(stored_loads());
+  arrays.push_back(stored_late_forces());
   std::vector<std::int64_t> counts, kinds, bodies;
   PointArray positions, directions;
   for (Fiber const& fiber : fibers_) {
@@ -106,9 +113,11 @@ void Fibers::restore(std::span<NamedArray const> state) {
   auto const& directions = stored_values(state, "fiber/site/direction", 3 * n);
   auto const& ends = stored_values(state, "fiber/ends", 9 * n);
   auto const& loads = stored_values(state, "fiber/load", 4 * n);
+  auto const& late_forces = stored_values(state, "fiber/late_force", 3 * n);
   for (std::size_t i = 0; i < n; ++i) {
     fibers_[i].ends = {point(ends, 3 * i), point(ends, 3 * i + 1), point(ends, 3 * i + 2)};
     fibers_[i].load = {{loads[4 * i], loads[4 * i + 1], loads[4 * i + 2]}, loads[4 * i + 3]};
+    fibers_[i].late_force = point(late_forces, i);
     fibers_[i].n_past = static_cast<int>(counts[i]);
     fibers_[i].site = {static_cast<MinusEnd>(kinds[i]), static_cast<int>(bodies[i]), point(positions, i),
                        point(directions, i)};

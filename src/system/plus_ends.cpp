@@ -142,6 +142,7 @@ void PlusEnds::plan_release(std::size_t i, Fibers& fibers) {
   auto& plan = fibers.plan(trial.fiber);
   plan.tip.force += (*trial.released_at / dt_) * force;
   plan.tip_jump = -force;
+  plan.jump_at = *trial.released_at / dt_;
 }
 
 void PlusEnds::plan_loads(std::size_t i, Fibers& fibers) {
@@ -226,7 +227,10 @@ void PlusEnds::hold_captured(std::size_t i, Fibers& fibers, TipAnswer const& ans
   double const held = dt_ - trial.captured_at.value_or(0.0);
   Vec3d const pull = pulling_->pull(answer.position, tangent), mean = (held / dt_) * pull;
   plan.tip.force += mean;
-  if (trial.captured_at) plan.tip_jump = pull;
+  if (trial.captured_at) {
+    plan.tip_jump = pull;
+    plan.jump_at = 1 - held / dt_;
+  }
   double const start = plan.length - surroundings_[i].captured_speed * held;
   double const wanted = pulling_->length_at_cortex(plan.length, answer.position + answer.compliance * mean, tangent);
   double const length = std::max(std::min(wanted, start + growth_.spec().growth_speed * held),
