@@ -117,6 +117,47 @@ TEST(CorticalPulling, captures_once_a_site_and_at_the_rate) {
   EXPECT_EQ(around[1].capture_rates[0].until, 0.5);
 }
 
+TEST(CorticalPulling, captures_at_a_time_that_does_not_depend_on_the_step) {
+  // Two plus ends pass the reach of one site; the first to be captured holds it, and is let go.
+  auto const captures = [](double dt) {
+    CorticalPullingSpec const spec{
+        .positions = {{0, 0, 2.0}, {0, 0.9, 2.0}}, .residence_time = 1.5, .reach = 0.5, .capture_rate = 3.0};
+    DynamicInstability tips({.growth_speed = 0.5, .catastrophe_rate = 0.0, .rescue_rate = 20.0}, 4);
+    CorticalPulling pulling(spec, ellipsoid(), 4);
+    for (int i = 0; i < 2; ++i) tips.add(i, 1.0), pulling.add_tip();
+    std::vector<double> times;
+    std::vector<TipSurroundings> around(2);
+    for (int step = 0; step * dt < 4.5 - 1e-9; ++step) {
+      pulling.begin_step(dt);
+      for (int i = 0; i < 2; ++i)
+        pulling.surround(i, {{0, -1.2 + 0.5 * (step * dt + 0.3 * i), 1.7}, {0, 0.5, 0}, dt}, 0.0, around[i]);
+      tips.advance(dt, around);
+      auto const& trial = tips.trial_tips();
+      auto const again = [&](std::vector<std::size_t> const& changed) {
+        for (auto const i : changed) {
+          around[i].capture_rates = pulling.rates(i);
+          if (!trial[i].captured_at) tips.set_trial(i, tips.advanced(i, dt, around[i]));
+        }
+      };
+      for (int i = 0; i < 2; ++i)
+        if (trial[i].released_at) again(pulling.let_go(i, *trial[i].released_at));
+      for (int i = 0; i < 2; ++i) {
+        if (!trial[i].captured_at) continue;
+        times.push_back(step * dt + *trial[i].captured_at);
+        again(pulling.capture(i, trial[i], *trial[i].captured_at));
+      }
+      for (int i = 0; i < 2; ++i) pulling.advance(i, trial[i].state == TipState::captured, {}, 0.0);
+      tips.accept();
+      pulling.accept();
+    }
+    return times;
+  };
+  auto const one = captures(0.045), other = captures(0.005);
+  ASSERT_GE(one.size(), 3u);
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i) EXPECT_NEAR(one[i], other[i], 1e-9) << i;
+}
+
 TEST(CorticalPulling, holds_for_the_residence_time_on_average) {
   DynamicInstability tips({.catastrophe_rate = 0.0}, 5);
   int const n = 3000;
