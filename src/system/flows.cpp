@@ -83,10 +83,14 @@ Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double
   return viscosity * turn * flow.resistance() * turn.transpose();
 }
 
+Vector6 body_load(DirichletFlow const& flow, RigidPose const& pose, double viscosity, ConstPoints incident) {
+  return viscosity * turn_of(pose) * load_in_body_frame(flow, pose, incident);
+}
+
 Vector6 body_load(DirichletFlow const& flow, RigidPose const& pose, double viscosity, BackgroundFlow const& background) {
   PointArray incident;
   for (Vec3d const node : flow.surface().nodes()) incident.push_back(background.velocity(pose.point(node)));
-  return viscosity * turn_of(pose) * load_in_body_frame(flow, pose, incident);
+  return body_load(flow, pose, viscosity, incident);
 }
 
 }  // namespace asterflow

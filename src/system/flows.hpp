@@ -34,5 +34,7 @@ Surface plain_surface(ShapeSpec const& shape, int order);
 Matrix6 body_resistance(DirichletFlow const& flow, RigidPose const& pose, double viscosity);
 // Force and torque about its centre on a body alone that is held in that flow.
 Vector6 body_load(DirichletFlow const& flow, RigidPose const& pose, double viscosity, BackgroundFlow const& background);
+// The same of a flow given at the nodes of its surface, um/s.
+Vector6 body_load(DirichletFlow const& flow, RigidPose const& pose, double viscosity, ConstPoints incident);
 
 }  // namespace asterflow

@@ -109,8 +109,12 @@ LocalMotions Simulation::local_motions(ConstPoints expected, std::vector<BodyDri
   PointArray u(expected.begin(), expected.end()), force_density(fibers_.node_count());
   u.resize(fibers_.node_count());
   LocalMotions local;
+  std::size_t first = fibers_.node_count();  // of the nodes of the body
   for (std::size_t b = 0; b < drives.size(); ++b) {
-    if (radiation_ && !expected.empty()) loads[b] = radiation_->load_of_incident(b, expected);
+    std::size_t const n = flows_.bodies[b]->surface().size();
+    if (radiation_ && !expected.empty())
+      loads[b] = body_load(*flows_.bodies[b], drives[b].pose, scene_.fluid.viscosity, expected.subspan(first, n));
+    first += n;
     local.resistances.push_back(drives[b].is_free ? alone.resistance(b) : Matrix6(Matrix6::Zero()));
   }
   alone.answer(u, loads, true, force_density, local.motions);
