@@ -24,7 +24,10 @@ class BoxMaker {
       std::uint64_t const key = parent.key * 8 + i;
       source = {source.end, end_of(sources_, source.end, parent.sources.end, level, key)};
       target = is_same() ? source : Range{target.end, end_of(targets_, target.end, parent.targets.end, level, key)};
-      if (source.size() + target.size() > 0) children.push_back(box(key, source, target));
+      if (source.size() + target.size() == 0) continue;
+      Box child{key, {2 * parent.place[0], 2 * parent.place[1], 2 * parent.place[2]}, source, target};
+      for (int d = 0; d < 3; ++d) child.place[d] += static_cast<int>(i >> d & 1);
+      children.push_back(child);
     }
   }
 
@@ -51,12 +54,16 @@ class BoxMaker {
   }
 
  private:
+  static constexpr long few = 64;  // searched one by one
+
   bool is_same() const { return &sources_ == &targets_; }
 
   // The first place in begin ... end whose key is beyond the box `key` of `level`.
   static long end_of(Keys const& keys, long begin, long end, int level, std::uint64_t key) {
-    int const shift = 3 * (morton_levels - level);
-    return std::lower_bound(keys.begin() + begin, keys.begin() + end, (key + 1) << shift) - keys.begin();
+    std::uint64_t const beyond = (key + 1) << 3 * (morton_levels - level);
+    if (end - begin > few) return std::lower_bound(keys.begin() + begin, keys.begin() + end, beyond) - keys.begin();
+    while (begin < end && keys[begin] < beyond) ++begin;
+    return begin;
   }
   static Box box(std::uint64_t key, Range const& sources, Range const& targets) {
     return {key, {morton_coordinate(key, 0), morton_coordinate(key, 1), morton_coordinate(key, 2)}, sources, targets};
@@ -86,20 +93,16 @@ std::vector<std::vector<Box>> refine(BoxMaker const& make, OctreeOptions const& 
 // Parents of the neighbours of these boxes, of `level`, that are not among `above`.
 Keys missing_parents(BoxLevel const& boxes, int level, BoxLevel const& above) {
   Keys missing;
-  int const width = 1 << level;
-  for (Box const& box : boxes.boxes())
-    for (int i = 0; i < 8; ++i) {
-      int parent[3];
-      bool inside = true;
-      for (int d = 0; d < 3; ++d) {
-        int const neighbour = box.place[d] + ((i >> d & 1) != 0 ? 1 : -1);
-        inside = inside && neighbour >= 0 && neighbour < width;
-        parent[d] = neighbour >> 1;
-      }
-      if (!inside) continue;
-      std::uint64_t const key = morton_key(parent[0], parent[1], parent[2]);
-      if (!above.find(key)) missing.push_back(key);
+  for (Box const& box : boxes.boxes()) {
+    std::uint64_t const own = box.key >> 3;
+    auto const around = neighbour_keys(own, level - 1);
+    int step[3];  // to the other parent of the neighbours along a direction, among those around the own
+    for (int d = 0; d < 3; ++d) step[d] = static_cast<int>(2 * (box.key >> d & 1)) - 1;
+    for (int i = 1; i < 8; ++i) {
+      std::uint64_t const key = around[13 + step[0] * (i & 1) + 3 * step[1] * (i >> 1 & 1) + 9 * step[2] * (i >> 2)];
+      if (key != no_key && !above.find(key)) missing.push_back(key);
     }
+  }
   std::sort(missing.begin(), missing.end());
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
   return missing;
@@ -107,13 +110,14 @@ Keys missing_parents(BoxLevel const& boxes, int level, BoxLevel const& above) {
 
 }  // namespace
 
-std::array<std::uint64_t, 27> neighbour_keys(int const (&place)[3], int level) {
-  std::uint64_t along[3][3];  // key of the coordinates place - 1, place, place + 1 of each direction
-  for (int d = 0; d < 3; ++d)
-    for (int i = 0; i < 3; ++i) {
-      int const x = place[d] + i - 1;
-      along[d][i] = x < 0 || x >= 1 << level ? no_key : morton_key(x, 0, 0) << d;
-    }
+std::array<std::uint64_t, 27> neighbour_keys(std::uint64_t key, int level) {
+  std::uint64_t along[3][3];  // the bits of x - 1, x, x + 1 of each direction
+  for (int d = 0; d < 3; ++d) {
+    std::uint64_t const all = (0x1249249249249249u & ((std::uint64_t{1} << 3 * level) - 1)) << d, x = key & all;
+    along[d][0] = x == 0 ? no_key : (x - 1) & all;
+    along[d][1] = x;
+    along[d][2] = x == all ? no_key : ((x | ~all) + 1) & all;
+  }
   std::array<std::uint64_t, 27> keys;
   for (int i = 0; i < 27; ++i) {
     std::uint64_t const x = along[0][i % 3], y = along[1][i / 3 % 3], z = along[2][i / 9];

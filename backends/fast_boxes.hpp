@@ -27,7 +27,7 @@ struct OctreeOptions {
 
 // Keys of a box and the 26 around it; no_key where there is no such place.
 inline constexpr std::uint64_t no_key = ~std::uint64_t{0};
-std::array<std::uint64_t, 27> neighbour_keys(int const (&place)[3], int level);
+std::array<std::uint64_t, 27> neighbour_keys(std::uint64_t key, int level);
 
 // The boxes of one kind and level, sorted by key, and where each of them is.
 class BoxLevel {

@@ -48,11 +48,9 @@ Choice best_cover(std::vector<Box const*> boxes, double nodes_per_box, double ma
 
 }  // namespace
 
-std::vector<Rectangle> cover(std::vector<Box> const& boxes, double nodes_per_box, double max_nodes) {
+std::vector<Rectangle> cover(std::vector<Box const*> boxes, double nodes_per_box, double max_nodes) {
   if (boxes.empty()) return {};
-  std::vector<Box const*> all;
-  for (Box const& box : boxes) all.push_back(&box);
-  return best_cover(std::move(all), nodes_per_box, max_nodes).rectangles;
+  return best_cover(std::move(boxes), nodes_per_box, max_nodes).rectangles;
 }
 
 }  // namespace asterflow

@@ -13,6 +13,6 @@ struct Rectangle {
 };
 
 // nodes_per_box: grid nodes along the side of a box; max_nodes: largest grid of a patch.
-std::vector<Rectangle> cover(std::vector<Box> const& boxes, double nodes_per_box, double max_nodes);
+std::vector<Rectangle> cover(std::vector<Box const*> boxes, double nodes_per_box, double max_nodes);
 
 }  // namespace asterflow

@@ -125,8 +125,7 @@ std::vector<NearLists::Candidates> NearLists::candidates(int level, Box const& b
     if (tree_->boxes().leaves()[l].boxes().empty()) continue;
     int const shift = level - l;
     std::size_t const first = found.size();
-    int const place[3] = {box.place[0] >> shift, box.place[1] >> shift, box.place[2] >> shift};
-    for (std::uint64_t key : neighbour_keys(place, l)) {
+    for (std::uint64_t key : neighbour_keys(box.key >> 3 * shift, l)) {
       if (lists_once_ && l == level && key <= box.key) continue;
       Box const* near = tree_->boxes().leaf(l, key);
       if (!near && l == level && !lists_once_) near = tree_->boxes().refined_box(l, key);

@@ -4,19 +4,24 @@
 #include "backends/fast_sort.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace asterflow {
 namespace {
 
+// Seven bits, each followed by two zeros.
+constexpr auto spread_seven = [] {
+  std::array<std::uint32_t, 128> spread{};
+  for (std::uint32_t x = 0; x < 128; ++x)
+    for (int bit = 0; bit < 7; ++bit) spread[x] |= (x >> bit & 1u) << 3 * bit;
+  return spread;
+}();
+
 std::uint64_t spread_bits(std::uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffff;
-  x = (x | x << 16) & 0x1f0000ff0000ff;
-  x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3;
-  return (x | x << 2) & 0x1249249249249249;
+  auto const part = [x](int i) { return std::uint64_t{spread_seven[x >> 7 * i & 127]} << 21 * i; };
+  return part(0) | part(1) | part(2);
 }
 
 void extend(ConstPoints points, Vec3d& low, Vec3d& high) {
@@ -63,17 +68,22 @@ RootCube::RootCube(ConstPoints sources, ConstPoints targets, double enlargement)
   corner = (low - origin) * (1.0 / unit);
 }
 
-std::uint64_t finest_key(RootCube const& cube, Vec3d point) {
+void find_keys(ConstPoints points, long begin, long end, RootCube const& cube, KeyedIndex* items) {
   constexpr double cells = static_cast<double>(1 << morton_levels);
-  Vec3d const p = cube.normalised(cube.placed(point));
-  auto const cell = [&](double x) { return static_cast<std::uint64_t>(std::clamp(x * cells, 0.0, cells - 1.0)); };
-  return morton_key(cell(p.x), cell(p.y), cell(p.z));
+  double const to_cells = cells / cube.unit_side;
+  auto const cell = [&](double x) { return static_cast<std::uint64_t>(static_cast<long>(std::clamp(x * to_cells, 0.0, cells - 1.0))); };
+  for (long i = begin; i < end; ++i) {
+    Vec3d const x = cube.placed(points[i]) - cube.corner;
+    items[i] = {spread_bits(cell(x.x)) | spread_bits(cell(x.y)) << 1 | spread_bits(cell(x.z)) << 2, static_cast<std::uint32_t>(i)};
+  }
 }
 
 std::vector<KeyedIndex> sorted_keys(ConstPoints points, RootCube const& cube) {
   std::vector<KeyedIndex> items(points.size());
-  for_blocks("Fast::morton_keys", static_cast<long>(points.size()),
-             [&](long i) { items[i] = {finest_key(cube, points[i]), static_cast<std::uint32_t>(i)}; });
+  constexpr long block = 2048;
+  long const n = static_cast<long>(points.size());
+  parallel_for("Fast::morton_keys", (n + block - 1) / block,
+               [&](long i) { find_keys(points, i * block, std::min(n, (i + 1) * block), cube, items.data()); });
   sort_by_key(items);
   return items;
 }

@@ -33,9 +33,6 @@ struct RootCube {
   Vec3d normalised(Vec3d placed) const { return (placed - corner) / unit_side; }
 };
 
-// The cell of the finest level that a point is in.
-std::uint64_t finest_key(RootCube const& cube, Vec3d point);
-
 struct OrderedPoints {
   std::vector<std::uint64_t> keys;   // of the finest level, ascending
   std::vector<std::uint32_t> order;  // index among the points given; ascends where keys are equal
@@ -44,11 +41,14 @@ struct OrderedPoints {
 
 OrderedPoints order_points(ConstPoints points, RootCube const& cube);
 
-// The keys and places in the array of points, sorted.
 struct KeyedIndex {
-  std::uint64_t key;
-  std::uint32_t index;
+  std::uint64_t key;    // of the cell of the finest level that a point is in
+  std::uint32_t index;  // of the point
 };
+
+// items [n_point], overwritten from begin to end - 1, on this thread.
+void find_keys(ConstPoints points, long begin, long end, RootCube const& cube, KeyedIndex* items);
+// Of all points, sorted.
 std::vector<KeyedIndex> sorted_keys(ConstPoints points, RootCube const& cube);
 
 }  // namespace asterflow

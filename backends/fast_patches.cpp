@@ -98,7 +98,9 @@ void FarPatches<Real>::add_level_patches(Octree const& tree, int level) {
   double const nodes_per_box = side / spacing;
   auto const& boxes = tree.boxes().refined()[level].boxes();
   std::size_t const n_point = (tree.sources().size() + tree.targets().size()) / 2;
-  auto const rectangles = cover(boxes, nodes_per_box, parameters_.max_nodes(n_point));
+  std::vector<Box const*> all;
+  for (Box const& box : boxes) all.push_back(&box);
+  auto const rectangles = cover(std::move(all), nodes_per_box, parameters_.max_nodes(n_point));
   std::size_t const first = patches_.size();
   patches_.resize(first + rectangles.size());
   for (std::size_t i = 0; i < rectangles.size(); ++i) {

@@ -3,6 +3,7 @@
 #include "backends/fast_cover.hpp"
 #include "backends/fast_fourier.hpp"
 #include "backends/fast_kernel.hpp"
+#include "backends/fast_nested.hpp"
 #include "backends/fast_sort.hpp"
 #include "backends/finite.hpp"
 #include "base/parallel.hpp"
@@ -55,9 +56,9 @@ class Sample {
     bool same;
     double stride;
 
-    OctreeBoxes boxes(long capacity, int first_level) const {
-      OctreeOptions const options{std::max(4L, capacity / static_cast<long>(stride)), first_level};
-      return {source_keys, same ? source_keys : target_keys, options};
+    long in_sample(long capacity) const { return std::max(4L, capacity / static_cast<long>(stride)); }
+    NestedOctrees octrees(long smallest_capacity, int first_level) const {
+      return {source_keys, same ? source_keys : target_keys, {in_sample(smallest_capacity), first_level}};
     }
     double n() const { return 0.5 * stride * static_cast<double>(source_keys.size() + (same ? source_keys : target_keys).size()); }
   };
@@ -69,9 +70,8 @@ class Sample {
 
  private:
   static std::vector<std::uint64_t> keys(PointArray const& points, RootCube const& cube) {
-    std::vector<KeyedIndex> items;
-    items.reserve(points.size());
-    for (Vec3d const& x : points) items.push_back({finest_key(cube, x), 0});
+    std::vector<KeyedIndex> items(points.size());
+    find_keys(points, 0, static_cast<long>(points.size()), cube, items.data());
     sort_on_this_thread(items);
     std::vector<std::uint64_t> keys;
     keys.reserve(items.size());
@@ -91,31 +91,27 @@ class Sample {
   PointArray sources_, targets_;
 };
 
-// Pairs in the lists of an octree that holds one of every `stride` points.
-double near_pairs(OctreeBoxes const& tree, double stride, double lanes) {
+// Pairs in the lists of one of the octrees of a sample; where they are more than `most`, any number above it. part: of the 27 boxes
+// around a leaf with so many targets of the sample, what a group of them has within the cutoff.
+template <class Part>
+double near_pairs(NestedOctrees const& octrees, OctreeChoice const& octree, Part const& part, double most) {
   double pairs = 0.0;
-  std::vector<double> parts;  // of the leaves of one level
-  for (int level = 0; level < static_cast<int>(tree.leaves().size()); ++level) {
-    auto const& leaves = tree.leaves()[level].boxes();
-    parts.clear();
-    for (Box const& box : leaves) parts.push_back(part_within_cutoff(stride * static_cast<double>(box.targets.size()), lanes));
-    for (Box const& box : leaves) {
-      double const n_source = static_cast<double>(box.sources.size()), n_target = static_cast<double>(box.targets.size());
-      double const part = parts[&box - leaves.data()];
-      pairs += part * n_target * n_source;
-      for (std::uint64_t key : neighbour_keys(box.place, level)) {
-        if (key == box.key || key == no_key) continue;
-        if (Box const* near = key > box.key ? tree.leaf(level, key) : nullptr) {
-          pairs += part * n_target * static_cast<double>(near->sources.size());
-          pairs += parts[near - leaves.data()] * n_source * static_cast<double>(near->targets.size());
-        } else if ((near = tree.refined_box(level, key))) {
-          pairs += part * n_target * static_cast<double>(near->sources.size());
-          pairs += part * n_source * static_cast<double>(near->targets.size());
-        }
+  for (int l = 0; l < static_cast<int>(octrees.levels().size()) && pairs <= most; ++l) {
+    auto const& level = octrees.levels()[l];
+    for (std::size_t i = 0; i < level.boxes.size(); ++i) {
+      if (!octrees.exists(level, l, i, octree) || octrees.is_refined(level, l, i, octree)) continue;
+      Box const& leaf = level.boxes[i];
+      long n_source = 0, n_target = 0;  // around the leaf; in refined boxes, whose lists hold the leaf's sources
+      for (std::int32_t near : level.around[i]) {
+        if (near < 0 || !octrees.exists(level, l, near, octree)) continue;
+        n_source += level.boxes[near].sources.size();
+        if (octrees.is_refined(level, l, near, octree)) n_target += level.boxes[near].targets.size();
       }
+      double const n = static_cast<double>(leaf.targets.size() * n_source + leaf.sources.size() * n_target);
+      pairs += part(leaf.targets.size()) * n;
     }
   }
-  return pairs * stride * stride;
+  return pairs;
 }
 
 // A grid of transforms, and the parts of its rows y and planes z that sources and targets reach.
@@ -162,59 +158,102 @@ Grid patch_grid(Rectangle const& r, FastParameters const& p, int const (&low)[3]
 }
 
 // Of the patches of one level.
-double level_cost(std::vector<Box> const& refined, FastParameters const& p, Costs const& c, double stride, double max_nodes) {
+double level_cost(std::vector<Box const*> const& refined, FastParameters const& p, Costs const& c, double stride, double max_nodes) {
   double cost = 0.0;
   int low[3], high[3];
   for (int d = 0; d < 3; ++d) {
-    auto const less = [d](Box const& a, Box const& b) { return a.place[d] < b.place[d]; };
+    auto const less = [d](Box const* a, Box const* b) { return a->place[d] < b->place[d]; };
     auto const [first, last] = std::minmax_element(refined.begin(), refined.end(), less);
-    low[d] = first->place[d], high[d] = last->place[d];
+    low[d] = (*first)->place[d], high[d] = (*last)->place[d];
   }
   for (Rectangle const& r : cover(refined, 2.0 * p.nodes_per_cutoff, max_nodes)) cost += c.node * patch_grid(r, p, low, high).swept();
-  for (Box const& box : refined) cost += 0.5 * c.point * stride * (box.sources.size() + box.targets.size());
+  for (Box const* box : refined) cost += 0.5 * c.point * stride * static_cast<double>(box->sources.size() + box->targets.size());
   return cost;
 }
 
-// Whether a box above that level is a leaf: another first level would refine it.
-bool has_leaf_above(OctreeBoxes const& tree, int level) {
-  for (int l = 0; l < level; ++l)
-    if (!tree.leaves()[l].boxes().empty()) return true;
-  return false;
-}
-
-// The cheapest first level for leaves of that capacity; without cost where all cost more than `bound`.
-Plan best_first_level(Sample::Ordered const& points, long capacity, FastParameters const& p, Costs const& c, double bound) {
-  constexpr int deepest_first = 5;
-  OctreeBoxes const tree = points.boxes(capacity, 0);
-  double const max_nodes = p.max_nodes(static_cast<std::size_t>(points.n()));
-  auto const near = [&](OctreeBoxes const& boxes) { return c.pair * near_pairs(boxes, points.stride, p.single ? 16.0 : 8.0); };
-  auto const level = [&](OctreeBoxes const& boxes, int l) {
-    return level_cost(boxes.refined()[l].boxes(), p, c, points.stride, max_nodes);
-  };
-  int const n_level = static_cast<int>(tree.refined().size());
-  std::vector<double> deeper(n_level + 1, 0.0);  // levels from each on
-  for (int l = n_level - 1; l >= 0; --l) deeper[l] = deeper[l + 1] + level(tree, l);
-  double near_of_tree = -1.0;
-  Plan best;
-  for (int first = 0; first <= std::min(n_level, deepest_first); ++first) {
-    Grid const root = root_grid(points.extent, p, first);
-    double cost = c.node * root.swept() + c.point * points.n();
-    if (root.kept() > 2.0 * max_nodes || cost >= bound) continue;
-    if (has_leaf_above(tree, first)) {
-      OctreeBoxes const refined = points.boxes(capacity, first);
-      for (int l = first; l < static_cast<int>(refined.refined().size()); ++l) cost += level(refined, l);
-      if (cost < bound) cost += near(refined);
-    } else {
-      cost += deeper[first];
-      if (cost < bound && near_of_tree < 0.0) near_of_tree = near(tree);
-      cost += near_of_tree;
-    }
-    if (cost >= bound) continue;
-    best = {{capacity, first}, cost};
-    bound = cost;
+// Compares octrees of one side of the root.
+class SideSearch {
+ public:
+  SideSearch(Sample::Ordered const& points, FastParameters const& p, Costs const& c)
+      : points_(points), p_(p), c_(c), max_nodes_(p.max_nodes(static_cast<std::size_t>(points.n()))) {
+    double const lanes = p.single ? 16.0 : 8.0;
+    for (long n = 0; n < 256; ++n) parts_.push_back(part_within_cutoff(points.stride * static_cast<double>(n), lanes));
   }
-  return best;
-}
+
+  // The cheapest with leaves of these capacities and any first level; without cost where all cost `bound` or more.
+  Plan best(std::vector<long> const& capacities, double bound) {
+    best_ = {{}, bound};
+    long const smallest = *std::min_element(capacities.begin(), capacities.end());
+    refine(smallest, 0);
+    std::vector<int> beyond;  // of each capacity, the first level that the largest leaf is above
+    for (long capacity : capacities) {
+      beyond.push_back(std::min(octrees_.level_of_largest_leaf(points_.in_sample(capacity)), deepest_first) + 1);
+      for (int first = 0; first < beyond.back(); ++first) compare(capacity, first);
+    }
+    int deepest = 0;
+    for (int first : beyond)
+      while (first <= std::min(octrees_.n_refined_level(), deepest_first) && root_cost(first) < best_.cost) deepest = std::max(deepest, first++);
+    if (deepest > 0) refine(smallest, deepest);
+    for (std::size_t i = 0; i < capacities.size(); ++i)
+      for (int first = beyond[i]; first <= deepest; ++first) compare(capacities[i], first);
+    return best_.cost < bound ? best_ : Plan{};
+  }
+
+ private:
+  static constexpr int deepest_first = 5;
+
+  void refine(long smallest_capacity, int first_level) {
+    octrees_ = points_.octrees(smallest_capacity, first_level);
+    level_costs_.assign(octrees_.levels().size(), {});
+    near_costs_.clear();
+  }
+
+  double root_cost(int first_level) const {
+    Grid const root = root_grid(points_.extent, p_, first_level);
+    if (root.kept() > 2.0 * max_nodes_) return std::numeric_limits<double>::infinity();
+    return c_.node * root.swept() + c_.point * points_.n();
+  }
+
+  void compare(long capacity, int first_level) {
+    OctreeChoice const octree{points_.in_sample(capacity), first_level};
+    double cost = root_cost(first_level);
+    std::size_t n_refined = 0;
+    for (int l = 0; l < static_cast<int>(octrees_.levels().size()) && cost < best_.cost; ++l) {
+      auto const refined = octrees_.refined(l, octree);
+      n_refined += refined.size();
+      if (l >= first_level && !refined.empty()) cost += level_cost_of(l, refined);
+    }
+    if (cost < best_.cost) cost += near_cost(octree, n_refined, best_.cost - cost);
+    if (cost < best_.cost) best_ = {{capacity, first_level}, cost};
+  }
+
+  // Of two octrees as many refined boxes are the same ones.
+  double level_cost_of(int level, std::vector<Box const*> const& refined) {
+    double& cost = level_costs_[level].try_emplace(refined.size(), -1.0).first->second;
+    if (cost < 0.0) cost = level_cost(refined, p_, c_, points_.stride, max_nodes_);
+    return cost;
+  }
+  // At least that: no more is found out than that it is above `most`.
+  double near_cost(OctreeChoice const& octree, std::size_t n_refined, double most) {
+    double& cost = near_costs_[n_refined];
+    double const unit = c_.pair * points_.stride * points_.stride;
+    auto const part = [&](long n) {
+      return n < static_cast<long>(parts_.size()) ? parts_[n] : part_within_cutoff(points_.stride * static_cast<double>(n), p_.single ? 16.0 : 8.0);
+    };
+    if (cost < most) cost = unit * near_pairs(octrees_, octree, part, most / unit);
+    return cost;
+  }
+
+  Sample::Ordered const& points_;
+  FastParameters const& p_;
+  Costs c_;
+  double max_nodes_;
+  std::vector<double> parts_;
+  NestedOctrees octrees_;
+  std::vector<std::map<std::size_t, double>> level_costs_;
+  std::map<std::size_t, double> near_costs_;
+  Plan best_;
+};
 
 // Compares octrees of given sides of the root and capacities, with any first level; none twice.
 class Search {
@@ -223,15 +262,18 @@ class Search {
 
   void compare(std::vector<double> const& enlargements, std::vector<long> const& capacities) {
     order(enlargements);
-    std::vector<Plan> plans;
-    for (double enlargement : enlargements)
+    std::vector<std::pair<double, std::vector<long>>> sides;
+    for (double enlargement : enlargements) {
+      std::vector<long> fresh;
       for (long capacity : capacities)
-        if (compared_.emplace(enlargement, capacity).second) plans.push_back({{capacity, 0, enlargement}, 0.0});
+        if (compared_.emplace(enlargement, capacity).second) fresh.push_back(capacity);
+      if (!fresh.empty()) sides.emplace_back(enlargement, fresh);
+    }
     double const bound = best_.cost > 0.0 ? best_.cost : std::numeric_limits<double>::infinity();
-    parallel_for("Fast::best_plan", static_cast<long>(plans.size()), [&](long i) {
-      double const enlargement = plans[i].octree.enlargement;
-      plans[i] = best_first_level(ordered_.at(enlargement), plans[i].octree.capacity, p_, c_, bound);
-      plans[i].octree.enlargement = enlargement;
+    std::vector<Plan> plans(sides.size());
+    parallel_for("Fast::best_plan", static_cast<long>(sides.size()), [&](long i) {
+      plans[i] = SideSearch(ordered_.at(sides[i].first), p_, c_).best(sides[i].second, bound);
+      plans[i].octree.enlargement = sides[i].first;
     });
     for (Plan const& plan : plans)
       if (plan.cost > 0.0 && (best_.cost == 0.0 || plan.cost < best_.cost)) best_ = plan;
@@ -268,8 +310,9 @@ Plan best_plan(std::string_view kernel, ConstPoints sources, ConstPoints targets
   constexpr long enough = 2500;  // of many points, to compare octrees
   Sample const sample(sources, targets, std::clamp(n / enough, 1L, 16L));
   Search search(sample, p, c);
-  search.compare({1.26}, {2 * p.capacity});  // most others cost more, which shows before all of their cost is known
-  search.compare({1.0, 1.26, 1.59}, {p.capacity, 2 * p.capacity, 4 * p.capacity});
+  std::vector<long> const capacities{2 * p.capacity, p.capacity, 4 * p.capacity};
+  search.compare({1.26}, capacities);  // most others cost more, which shows before all of their cost is known
+  search.compare({1.0, 1.59}, capacities);
   // Half a step to either side.
   double const side = search.best().octree.enlargement;
   long const capacity = search.best().octree.capacity;
