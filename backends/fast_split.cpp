@@ -41,13 +41,26 @@ Quadrature gauss_legendre() {
 
 using Function = std::function<double(double)>;
 
-// Chebyshev coefficients in u of f(r) for r^2 between low and high, u = -1 ... 1.
-std::vector<double> chebyshev_series(Function const& f, double low, double high, int n) {
+// Of the multiples of pi / 2 n.
+template <int n>
+std::array<double, 4 * n> const& cosines() {
+  static auto const table = [] {
+    std::array<double, 4 * n> all;
+    for (int i = 0; i < 4 * n; ++i) all[i] = std::cos(0.5 * M_PI * i / n);
+    return all;
+  }();
+  return table;
+}
+
+// n Chebyshev coefficients in u of f(r) for r^2 between low and high, u = -1 ... 1.
+template <int n, class F>
+std::vector<double> chebyshev_series(F const& f, double low, double high) {
   std::vector<double> value(n), series(n);
-  for (int i = 0; i < n; ++i) value[i] = f(low + (high - low) * (0.5 + 0.5 * std::cos(M_PI * (i + 0.5) / n)));
+  auto const& cosine = cosines<n>();
+  for (int i = 0; i < n; ++i) value[i] = f(low + (high - low) * (0.5 + 0.5 * cosine[2 * i + 1]));
   for (int k = 0; k < n; ++k) {
     double sum = 0.0;
-    for (int i = 0; i < n; ++i) sum += value[i] * std::cos(M_PI * k * (i + 0.5) / n);
+    for (int i = 0; i < n; ++i) sum += value[i] * cosine[k * (2 * i + 1) % (4 * n)];
     series[k] = (k == 0 ? 1.0 : 2.0) * sum / n;
   }
   return series;
@@ -91,11 +104,12 @@ std::vector<double> monomials(std::vector<double> const& series, int n) {
 class Piecewise {
  public:
   Piecewise(Function const& f, int pieces, double tolerance) {
-    auto const whole = chebyshev_series([&](double s) { return f(std::sqrt(s)); }, 0.0, 1.0, n_fit);
+    auto whole = chebyshev_series<n_fit>([&](double s) { return f(std::sqrt(s)); }, 0.0, 1.0);
     tolerance = std::max(tolerance, 1e-13 * largest(whole));  // rounding of the coefficients
+    if (pieces > 1) whole.resize(terms_needed(whole, 1e-16 * largest(whole)));
     for (int i = 0; i < pieces; ++i) {
       double const low = static_cast<double>(i) / pieces, high = (i + 1.0) / pieces;
-      series_.push_back(pieces == 1 ? whole : chebyshev_series([&](double s) { return value_at(whole, 2.0 * s - 1.0); }, low, high, n_fit / 2));
+      series_.push_back(pieces == 1 ? whole : chebyshev_series<n_fit / 2>([&](double s) { return value_at(whole, 2.0 * s - 1.0); }, low, high));
       terms_ = std::max(terms_, terms_needed(series_.back(), tolerance));
     }
   }
@@ -121,7 +135,11 @@ template <class F>
 double KernelSplit::moment(int power, double r, F const& f) {
   static Quadrature const rule = gauss_legendre();
   double sum = 0.0;
-  for (int i = 0; i < n_quadrature; ++i) sum += rule.w[i] * std::pow(rule.x[i], power) * f(r * rule.x[i]);
+  for (int i = 0; i < n_quadrature; ++i) {
+    double weight = rule.w[i];
+    for (int k = 0; k < power; ++k) weight *= rule.x[i];
+    sum += weight * f(r * rule.x[i]);
+  }
   return sum;
 }
 
