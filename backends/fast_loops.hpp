@@ -97,13 +97,13 @@ struct NearWork {
   Real* reactions;  // [place, 4], added to: three components and padding; null where all pairs are one way
 };
 
-// Which sources may lie within `reach` of a group of targets, all in normalised float coordinates.
+// Which sources may lie within `reach` of a group of targets t, all in normalised float coordinates.
 struct NearQuery {
   static constexpr int max_target = 32;
   static constexpr float touch = 1e-6f;  // distances below it may be rounding
   float const* sources[3];
-  float low[3], high[3];  // box of the targets
-  float targets[3][max_target];
+  float middle[3], half[3];  // of the targets' box
+  float targets[3][max_target], squares[max_target];  // 2 (t - middle), |t - middle|^2
   int n_target;
   float reach;
 };

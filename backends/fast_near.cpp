@@ -145,7 +145,7 @@ void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient) {
 
 template <class Real>
 void NearField<Real>::add_reactions(long item, Vec3d* velocity) const {
-  for (auto const& [points, place] : lists_.reactions_at(item)) {
+  for (auto const& [points, place, leaf] : lists_.reactions_at(item)) {
     Real const* reaction = reactions_.data() + 4 * place;
     for (long i = points.begin; i < points.end; ++i, reaction += 4)
       for (int d = 0; d < 3; ++d) velocity[i][d] += velocity_scale_ * static_cast<double>(reaction[d]);

@@ -250,36 +250,56 @@ inline unsigned lanes_below(Pack<float> x, float limit) {
 #endif
 }
 
-// First against the box of the targets, then against each of them.
+inline Pack<float> larger(Pack<float> a, Pack<float> b) {
+#if defined(__AVX512F__)
+  return (Pack<float>)_mm512_max_ps((__m512)a, (__m512)b);
+#elif defined(__AVX2__)
+  return (Pack<float>)_mm256_max_ps((__m256)a, (__m256)b);
+#else
+  return a > b ? a : b;
+#endif
+}
+
+// first + i for the bits i of hits, with room for a vector.
+inline void put_places(std::uint16_t* places, unsigned hits, int first) {
+#if defined(__AVX512F__)
+  __m512i const all = _mm512_add_epi32(_mm512_set1_epi32(first), _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+  __m256i const some = _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(static_cast<__mmask16>(hits), all));
+  std::memcpy(places, &some, sizeof some);
+#else
+  for (; hits != 0; hits &= hits - 1) *places++ = static_cast<std::uint16_t>(first + __builtin_ctz(hits));
+#endif
+}
+
+// First against the box of the targets, then against each of them: |s - t|^2 = |s|^2 - (2 s.t - |t|^2) about the middle of the
+// box, to some roundings of the square of the reach.
 inline void list_near(NearQuery const& query, long begin, long end, long base, NearFound& found) {
   using F = Pack<float>;
   constexpr int W = lanes<float>;
-  float const reach2 = query.reach * query.reach;
+  constexpr float rounding = 4e-6f;
+  float const reach2 = (1.0f + rounding) * query.reach * query.reach;
+  float const touch2 = NearQuery::touch * NearQuery::touch + rounding * query.reach * query.reach;
   for (long s = begin; s < end; s += W) {
-    F x[3], r2{};
+    F x[3], beyond2{}, square{};
     for (int d = 0; d < 3; ++d) {
-      x[d] = load(query.sources[d] + s);
-      F const below = query.low[d] - x[d], above = x[d] - query.high[d], zero{};
-      F const beyond = below > zero ? below : above > zero ? above : zero;
-      r2 += beyond * beyond;
+      x[d] = load(query.sources[d] + s) - query.middle[d];
+      F const beyond = larger(larger(x[d], -x[d]) - query.half[d], F{});
+      beyond2 += beyond * beyond;
+      square += x[d] * x[d];
     }
-    if (lanes_below(r2, reach2) == 0) continue;
-    F least = r2 + 1e30f;
-    for (int t = 0; t < query.n_target; ++t) {
-      F distance2{};
-      for (int d = 0; d < 3; ++d) {
-        F const r = x[d] - query.targets[d][t];
-        distance2 += r * r;
-      }
-      least = distance2 < least ? distance2 : least;
-    }
+    if (lanes_below(beyond2, reach2) == 0) continue;
+    F most = F{} - 1e30f;
+    for (int t = 0; t < query.n_target; ++t)
+      most = larger(most, x[0] * query.targets[0][t] + (x[1] * query.targets[1][t] + (x[2] * query.targets[2][t] - query.squares[t])));
+    F const least = square - most;
     unsigned hits = lanes_below(least, reach2);
     if (end - s < W) hits &= (1u << (end - s)) - 1u;
-    unsigned const touching = hits & lanes_below(least, NearQuery::touch * NearQuery::touch);
-    for (; hits != 0; hits &= hits - 1) {
-      if (touching & hits & -hits) found.touching[found.n_touching++] = static_cast<std::uint16_t>(found.n_source);
-      found.sources[found.n_source++] = static_cast<std::uint16_t>(s + __builtin_ctz(hits) - base);
+    put_places(found.sources + found.n_source, hits, static_cast<int>(s - base));
+    for (unsigned touching = hits & lanes_below(least, touch2); touching != 0; touching &= touching - 1) {
+      unsigned const before = hits & ((touching & -touching) - 1u);
+      found.touching[found.n_touching++] = static_cast<std::uint16_t>(found.n_source + __builtin_popcount(before));
     }
+    found.n_source += __builtin_popcount(hits);
   }
 }
 

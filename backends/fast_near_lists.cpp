@@ -51,6 +51,12 @@ void NearLists::set_points(Octree& tree, bool lists_once) {
       if (box.targets.size() > 0) boxes.emplace_back(static_cast<int>(level), &box);
   std::sort(boxes.begin(), boxes.end(), [](auto const& a, auto const& b) { return a.second->targets.begin < b.second->targets.begin; });
   leaves_.assign(boxes.size(), {});
+  leaf_of_box_.clear();
+  for (BoxLevel const& level : leaves) leaf_of_box_.emplace_back(level.boxes().size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    auto const [level, box] = boxes[i];
+    leaf_of_box_[level][box - leaves[level].boxes().data()] = static_cast<std::uint32_t>(i);
+  }
   parallel_for("NearLists::set_points::order", static_cast<long>(boxes.size()), [&](long i) {
     Range const range = boxes[i].second->targets;
     std::vector<std::uint32_t> order(range.size());
@@ -89,21 +95,18 @@ void NearLists::mirror_close_pairs() {
 
 // Sorts the reactions to every leaf's targets by the leaf that they act on.
 void NearLists::gather_reactions() {
-  reactions_.clear();
-  first_reactions_.clear();
+  first_reactions_.assign(leaves_.size() + 1, 0);
+  for (Leaf const& leaf : leaves_)
+    for (Reactions const& r : leaf.reactions) ++first_reactions_[r.leaf + 1];
+  std::partial_sum(first_reactions_.begin(), first_reactions_.end(), first_reactions_.begin());
+  reactions_.resize(first_reactions_.back());
+  std::vector<long> next(first_reactions_.begin(), first_reactions_.end() - 1);
   long place = 0;
   for (Leaf& leaf : leaves_) {
     leaf.first_place = std::exchange(place, place + leaf.n_place);
-    for (Reactions const& r : leaf.reactions) reactions_.push_back({r.sources, leaf.first_place + r.place});
+    for (Reactions const& r : leaf.reactions) reactions_[next[r.leaf]++] = {r.sources, leaf.first_place + r.place, r.leaf};
     leaf.reactions = {};
   }
-  std::stable_sort(reactions_.begin(), reactions_.end(),
-                   [](Reactions const& a, Reactions const& b) { return a.sources.begin < b.sources.begin; });
-  auto const is_before = [](Reactions const& r, long point) { return r.sources.begin < point; };
-  for (Leaf const& leaf : leaves_)
-    first_reactions_.push_back(std::lower_bound(reactions_.begin(), reactions_.end(), leaf.targets.begin, is_before) -
-                               reactions_.begin());
-  first_reactions_.push_back(static_cast<long>(reactions_.size()));
 }
 
 bool NearLists::is_close(long target, int n_target, std::uint32_t source) const {
@@ -121,20 +124,30 @@ bool NearLists::is_close(long target, int n_target, std::uint32_t source) const 
 // once the finer lists them or, of one level, the first; the leaf itself is left out then.
 std::vector<NearLists::Candidates> NearLists::candidates(int level, Box const& box) const {
   std::vector<Candidates> found;
+  std::vector<Reactions> near_boxes;  // of one level
   for (int l = level; l >= 0; --l) {
     if (tree_->boxes().leaves()[l].boxes().empty()) continue;
     int const shift = level - l;
-    std::size_t const first = found.size();
+    near_boxes.clear();
     for (std::uint64_t key : neighbour_keys(box.key >> 3 * shift, l)) {
       if (lists_once_ && l == level && key <= box.key) continue;
       Box const* near = tree_->boxes().leaf(l, key);
       if (!near && l == level && !lists_once_) near = tree_->boxes().refined_box(l, key);
       if (!near) continue;
+      std::uint32_t const leaf = lists_once_ ? leaf_of_box_[l][near - tree_->boxes().leaves()[l].boxes().data()] : 0;
       for (long begin = near->sources.begin; begin < near->sources.end; begin += list_span)
-        found.push_back({l, {begin, std::min(near->sources.end, begin + list_span)}, lists_once_});
+        near_boxes.push_back({{begin, std::min(near->sources.end, begin + list_span)}, 0, leaf});
     }
-    std::sort(found.begin() + static_cast<long>(first), found.end(),
-              [](Candidates const& a, Candidates const& b) { return a.sources.begin < b.sources.begin; });
+    std::sort(near_boxes.begin(), near_boxes.end(),
+              [](Reactions const& a, Reactions const& b) { return a.sources.begin < b.sources.begin; });
+    std::size_t const first = found.size();
+    for (Reactions const& near : near_boxes) {
+      bool const follows = found.size() > first && found.back().sources.end == near.sources.begin &&
+                           near.sources.end - found.back().sources.begin <= list_span;
+      if (!follows) found.push_back({l, {near.sources.begin, near.sources.begin}, lists_once_, -1, {}});
+      found.back().sources.end = near.sources.end;
+      if (lists_once_) found.back().boxes.push_back(near);
+    }
   }
   return found;
 }
@@ -144,13 +157,20 @@ NearQuery NearLists::query(long first, int n) const {
   q.n_target = n;
   for (int i = 0; i < n; ++i) {
     Vec3d const x = tree_->normalised(targets()[first + i]);
-    for (int d = 0; d < 3; ++d) {
-      q.targets[d][i] = static_cast<float>(x[d]);
-      q.low[d] = i == 0 ? q.targets[d][i] : std::min(q.low[d], q.targets[d][i]);
-      q.high[d] = i == 0 ? q.targets[d][i] : std::max(q.high[d], q.targets[d][i]);
+    for (int d = 0; d < 3; ++d) q.targets[d][i] = static_cast<float>(x[d]);
+    q.squares[i] = 0.0f;
+  }
+  for (int d = 0; d < 3; ++d) {
+    q.sources[d] = filter_[d].data();
+    auto const [low, high] = std::minmax_element(q.targets[d], q.targets[d] + n);
+    q.middle[d] = 0.5f * (*low + *high);
+    q.half[d] = std::max(*high - q.middle[d], q.middle[d] - *low);
+    for (int i = 0; i < n; ++i) {
+      float const x = q.targets[d][i] - q.middle[d];
+      q.targets[d][i] = 2.0f * x;
+      q.squares[i] += x * x;
     }
   }
-  for (int d = 0; d < 3; ++d) q.sources[d] = filter_[d].data();
   return q;
 }
 
@@ -176,8 +196,9 @@ void NearLists::append_near(NearQuery& query, NearGroup const& group, Candidates
     return;
   }
   if (from.is_mutual && from.place < 0) {
-    from.place = std::exchange(leaf.n_place, leaf.n_place + from.sources.size());
-    leaf.reactions.push_back({from.sources, from.place});
+    from.place = leaf.n_place;
+    for (Reactions const& at : from.boxes)
+      leaf.reactions.push_back({at.sources, std::exchange(leaf.n_place, leaf.n_place + at.sources.size()), at.leaf});
   }
   std::int32_t const reaction = from.is_mutual ? static_cast<std::int32_t>(from.place) : NearSegment::one_way;
   leaf.segments.push_back({static_cast<std::uint32_t>(base), end, from.level, reaction});
@@ -202,10 +223,10 @@ void NearLists::set_close_apart(NearGroup const& group, int level, std::uint32_t
 void NearLists::append_own(NearQuery& query, NearGroup const& group, int level, Leaf& leaf) const {
   Range const all = leaf.targets;
   long const next = group.target + group.n_target;
-  Candidates group_only{level, {group.target, next}};
+  Candidates group_only{level, {group.target, next}, false, -1, {}};
   append_near(query, group, group_only, leaf.segments.size(), leaf);
   for (long begin = next; begin < all.end; begin += list_span) {
-    Candidates rest{level, {begin, std::min(all.end, begin + list_span)}, true, begin - all.begin};
+    Candidates rest{level, {begin, std::min(all.end, begin + list_span)}, true, begin - all.begin, {}};
     append_near(query, group, rest, leaf.segments.size(), leaf);
   }
 }
@@ -219,7 +240,10 @@ NearLists::Leaf NearLists::list_sources(int level, Box const& box) const {
   segments.clear(), segments.swap(leaf.segments);
   leaf.targets = box.targets;
   leaf.groups.reserve((box.targets.size() + group_size_ - 1) / group_size_);
-  if (lists_once_) leaf.reactions.push_back({box.targets, 0}), leaf.n_place = box.targets.size();
+  if (lists_once_) {
+    leaf.reactions.push_back({box.targets, 0, leaf_of_box_[level][&box - tree_->boxes().leaves()[level].boxes().data()]});
+    leaf.n_place = box.targets.size();
+  }
   for (long t = box.targets.begin; t < box.targets.end; t += group_size_) {
     NearGroup group{t, static_cast<int>(std::min<long>(group_size_, box.targets.end - t)), 0};
     NearQuery q = query(t, group.n_target);

@@ -18,10 +18,11 @@ class NearLists {
     std::uint32_t target, source;
     int level;
   };
-  // Reactions at these sources are summed from `place` on, one place per source.
+  // Reactions at these sources, all of one leaf, are summed from `place` on, one place per source.
   struct Reactions {
     Range sources;
     long place;
+    std::uint32_t leaf;
   };
   struct Leaf {
     Range targets;
@@ -61,8 +62,9 @@ class NearLists {
   struct Candidates {
     int level;
     Range sources;
-    bool is_mutual = false;
-    long place = -1;  // of their reactions, once a source is listed
+    bool is_mutual;
+    long place;                    // of their reactions, once a source is listed, else -1
+    std::vector<Reactions> boxes;  // whose sources they are, if mutual
   };
 
   std::vector<Candidates> candidates(int level, Box const& box) const;
@@ -81,6 +83,7 @@ class NearLists {
   Octree const* tree_ = nullptr;
   bool lists_once_ = false;
   std::vector<Leaf> leaves_;
+  std::vector<std::vector<std::uint32_t>> leaf_of_box_;  // [level, box] among leaves_, where it has targets
   std::vector<Reactions> reactions_;     // by leaf they act on
   std::vector<long> first_reactions_;    // [n_leaf + 1]
   std::vector<float> filter_[3];  // normalised coordinates of the sources, while lists are made
