@@ -30,12 +30,14 @@ void make_compact(PointArray const& points, std::uint32_t* first, std::uint32_t*
     }
   Vec3d const e = high - low;
   int const d = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
-  auto* const middle = first + ((n + unit - 1) / unit + 1) / 2 * unit;
-  std::nth_element(first, middle, last, [&](std::uint32_t a, std::uint32_t b) {
-    return points[a][d] != points[b][d] ? points[a][d] < points[b][d] : a < b;
-  });
-  make_compact(points, first, middle, unit);
-  make_compact(points, middle, last, unit);
+  long const middle = ((n + unit - 1) / unit + 1) / 2 * unit;
+  static thread_local std::vector<std::pair<double, std::uint32_t>> along;
+  along.clear();
+  for (auto* i = first; i < last; ++i) along.emplace_back(points[*i][d], *i);
+  std::nth_element(along.begin(), along.begin() + middle, along.end());
+  std::transform(along.begin(), along.end(), first, [](auto const& item) { return item.second; });
+  make_compact(points, first, first + middle, unit);
+  make_compact(points, first + middle, last, unit);
 }
 
 }  // namespace
@@ -110,10 +112,11 @@ void NearLists::gather_reactions() {
 }
 
 bool NearLists::is_close(long target, int n_target, std::uint32_t source) const {
+  Vec3d const from = sources()[source];
+  Vec3d const* const at = targets().data();
   for (long t = target; t < target + n_target; ++t) {
-    Vec3d const r = targets()[t] - sources()[source];
-    if (std::abs(r.x) >= close_distance) continue;
-    double const r2 = dot(r, r);
+    if (std::abs(at[t].x - from.x) >= close_distance) continue;
+    double const r2 = dot(at[t] - from, at[t] - from);
     if (r2 > 0.0 && r2 < close_distance * close_distance) return true;
   }
   return false;

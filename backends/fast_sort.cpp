@@ -68,7 +68,7 @@ void sort_on_this_thread(std::vector<KeyedIndex>& items) {
 }
 
 void sort_by_key(std::vector<KeyedIndex>& items) {
-  constexpr long least_block = 8192, most_blocks = 64;
+  constexpr long least_block = 2048, most_blocks = 64;
   long const n = static_cast<long>(items.size()), n_block = std::clamp(n / least_block, 1L, most_blocks);
   if (n_block == 1) return sort_on_this_thread(items);
   std::vector<KeyedIndex> others(items.size());
