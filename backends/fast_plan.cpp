@@ -204,6 +204,7 @@ class SideSearch {
 
   void refine(long smallest_capacity, int first_level) {
     octrees_ = points_.octrees(smallest_capacity, first_level);
+    leaves_above_ = first_level > 0;
     level_costs_.assign(octrees_.levels().size(), {});
     near_costs_.clear();
   }
@@ -227,15 +228,16 @@ class SideSearch {
     if (cost < best_.cost) best_ = {{capacity, first_level}, cost};
   }
 
-  // Of two octrees as many refined boxes are the same ones.
+  // Of two octrees as many refined boxes of a level are the same ones.
   double level_cost_of(int level, std::vector<Box const*> const& refined) {
     double& cost = level_costs_[level].try_emplace(refined.size(), -1.0).first->second;
     if (cost < 0.0) cost = level_cost(refined, p_, c_, points_.stride, max_nodes_);
     return cost;
   }
-  // At least that: no more is found out than that it is above `most`.
+  // At least that: no more is found out than that it is above `most`. As many refined boxes of all levels are the same ones where
+  // no leaf is refined for the sake of the first level.
   double near_cost(OctreeChoice const& octree, std::size_t n_refined, double most) {
-    double& cost = near_costs_[n_refined];
+    double& cost = near_costs_[{leaves_above_ ? octree.first_level : 0, n_refined}];
     double const unit = c_.pair * points_.stride * points_.stride;
     auto const part = [&](long n) {
       return n < static_cast<long>(parts_.size()) ? parts_[n] : part_within_cutoff(points_.stride * static_cast<double>(n), p_.single ? 16.0 : 8.0);
@@ -250,8 +252,9 @@ class SideSearch {
   double max_nodes_;
   std::vector<double> parts_;
   NestedOctrees octrees_;
+  bool leaves_above_ = false;  // first levels below leaves are compared
   std::vector<std::map<std::size_t, double>> level_costs_;
-  std::map<std::size_t, double> near_costs_;
+  std::map<std::pair<int, std::size_t>, double> near_costs_;  // by first level, number of refined boxes
   Plan best_;
 };
 
