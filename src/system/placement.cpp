@@ -24,6 +24,14 @@ std::string remedy(Scene const& scene, bool StericRepulsionSpec::* holds, char c
   return fmt::format(" (a larger steric_repulsion.{} may hold it back)", force);
 }
 
+// A fiber in contact with a body is pushed the wrong way by a flow that does not resolve its reflection there.
+std::string remedy_of_bodies(Scene const& scene) {
+  bool const is_held = scene.steric_repulsion && scene.steric_repulsion->fiber_body;
+  if (is_held && scene.run.images != ImagesBehind::everything && scene.run.interactions != Interactions::local)
+    return " (run.images = \"all\", which resolves the flow between them, or a larger steric_repulsion.fiber_force may hold it back)";
+  return remedy(scene, &StericRepulsionSpec::fiber_body, "fiber_body", "fiber_force");
+}
+
 }  // namespace
 
 std::string fiber_words(Scene const& scene, std::size_t fiber) {
@@ -72,7 +80,7 @@ std::string Placement::complaint(std::size_t fiber, ConstPoints positions, std::
       Vec3d const in_body = poses[b].rotation.transpose() * (x - poses[b].position);
       if (!(bodies_[b]->shell_point(in_body).rho >= 1 - touching))
         return fmt::format("{} reaches into body \"{}\" {}{}", fiber_words(scene_, fiber), scene_.bodies[b].name,
-                           place_words(x), remedy(scene_, &StericRepulsionSpec::fiber_body, "fiber_body", "fiber_force"));
+                           place_words(x), remedy_of_bodies(scene_));
     }
   }
   return {};
