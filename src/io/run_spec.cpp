@@ -44,10 +44,11 @@ void RunSpec::set_defaults_from_accuracy() {
   if (evaluator_accuracy == 0.0) evaluator_accuracy = std::clamp(accuracy / 10.0, 1e-15, 1e-3);
 }
 
-RunSpec read_run(Table table, bool has_periphery) {
+RunSpec read_run(Table table, bool has_periphery, bool fibers_touch_bodies) {
   using enum Interactions;
   RunSpec run;
   if (has_periphery) run.interactions = confined;
+  if (fibers_touch_bodies) run.images = ImagesBehind::everything;
   table.read_choice<Interactions>("interactions", run.interactions,
                                   {{"local", local}, {"open", open}, {"confined", confined}});
   if (run.interactions == confined && !has_periphery)

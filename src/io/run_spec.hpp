@@ -29,12 +29,12 @@ struct RunSpec {
   int gmres_max_iterations = 200;  // > 0; a solve that needs more is a failed step
   std::string evaluator = "auto";  // auto, reference, direct, fast: who sums pairs (asterflow sum --help)
   double evaluator_accuracy = 0.0;  // relative error of pair sums; 0: accuracy / 10
-  ImagesBehind images = ImagesBehind::periphery;
+  ImagesBehind images = ImagesBehind::periphery;  // everything when fibers are repelled by bodies
   std::uint64_t seed = 1;          // of all chance
 
   void set_defaults_from_accuracy();  // replaces the zeros
 };
 
-RunSpec read_run(Table table, bool has_periphery);
+RunSpec read_run(Table table, bool has_periphery, bool fibers_touch_bodies);
 
 }  // namespace asterflow

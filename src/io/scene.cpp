@@ -29,7 +29,6 @@ Scene read_all(Table root) {
   root.finish();
 
   scene.fluid = read_fluid(fluid);
-  scene.run = read_run(run, periphery.has_value());
   scene.output = read_output(output);
   scene.drag = read_drag(tables.drag);
   if (periphery) scene.periphery = read_periphery(*periphery);
@@ -39,6 +38,7 @@ Scene read_all(Table root) {
   if (tables.pushing) scene.pushing = read_pushing(*tables.pushing);
   if (tables.cortical_pulling) scene.cortical_pulling = read_cortical_pulling(*tables.cortical_pulling);
   if (tables.steric_repulsion) scene.steric_repulsion = read_steric_repulsion(*tables.steric_repulsion);
+  scene.run = read_run(run, periphery.has_value(), scene.steric_repulsion && scene.steric_repulsion->fiber_body);
   for (auto const& body : tables.bodies) scene.bodies.push_back(read_body(body, scene.bodies.size() + 1));
   for (auto const& fiber : tables.fibers) scene.fibers.push_back(read_fiber(fiber));
   for (auto const& aster : tables.asters) scene.asters.push_back(read_aster(aster));
