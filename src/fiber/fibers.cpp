@@ -69,6 +69,13 @@ int Fibers::usable_past(Fiber const& fiber) const {
   return fiber.plan.is_newborn ? 1 : fiber.n_past;
 }
 
+bool Fibers::has_jumped(Fiber const& fiber) { return norm(fiber.plan.tip_jump) > 0 || fiber.n_smooth < 3; }
+
+bool Fibers::has_jumped(int body) const {
+  return std::any_of(fibers_.begin(), fibers_.end(),
+                     [&](Fiber const& fiber) { return fiber.site.is_attached() && fiber.site.body == body && has_jumped(fiber); });
+}
+
 // The shape at the end of the step, linearly extrapolated at fixed material coordinates and put on its site.
 void Fibers::predict(Fiber& fiber, std::span<BodyMotionMap const> bodies) const {
   MinusEndSite const& site = fiber.plan.site;
@@ -241,7 +248,9 @@ void Fibers::estimate_error(Fiber& fiber) const {
   int const n_past = usable_past(fiber);
   if (fiber.plan.is_newborn) return;
   sample(fiber.trial, fiber.coordinates, fiber.sampled, {});
-  if (n_past < 2) {  // nothing is known of its acceleration; what is linear about the predicted shape errs by the square
+  // Nothing is known of its acceleration, or it is that of a jump, which the step has taken up (late_share), and of what a fiber
+  // forgets soon: what is linear about the predicted shape errs by the square.
+  if (n_past < 2 || has_jumped(fiber)) {
     for (std::size_t i = 0; i < fiber.sampled.size(); ++i) {
       Vec3d const moved = fiber.sampled[i] - fiber.extrapolated[i];
       fiber.error = std::max(fiber.error, 0.5 * dot(moved, moved) / fiber.trial.length);
@@ -277,6 +286,7 @@ void Fibers::accept() {
     fiber.ends = fiber.trial_ends;
     fiber.load = fiber.plan.load;
     fiber.late_force = fiber.plan.jump_at * fiber.plan.tip_jump;
+    fiber.n_smooth = norm(fiber.plan.tip_jump) > 0 ? 0 : std::min(fiber.n_smooth + 1, 3);
     fiber.n_past = std::min(fiber.n_past + 1, 3);
   }
   dt_2_ = dt_1_;

@@ -88,6 +88,9 @@ class Fibers {
   // Local error of the trial step, um: of each fiber the node that errs most, of all fibers the root of the mean
   // square, so that one catastrophe among hundreds does not set the step; at least a tenth of the worst fiber's.
   double error_estimate() const;
+  // Whether the tip's force of a fiber on that body jumped in this step or the two before: then what the body's place differs by
+  // from its extrapolation is for the most part no error.
+  bool has_jumped(int body) const;
   void accept();
 
   // ---- State at the last accepted time ----
@@ -114,6 +117,7 @@ class Fibers {
     Plan plan;
     Centreline past[3];  // at the last accepted times, latest first
     int n_past = 1;
+    int n_smooth = 3;  // accepted steps since the tip's force last jumped; 3: or more
     Centreline newborn, predicted, trial;
     PointArray history, extrapolated, sampled;   // [n_node] a1 X_now + a2 X_before; quadratic extrapolation; buffer
     std::vector<double> coordinates;             // [n_node] buffer
@@ -135,6 +139,7 @@ class Fibers {
   void set_history(Fiber& fiber, TimeScheme const& scheme) const;
   TimeScheme scheme_of(Fiber const& fiber) const;
   int usable_past(Fiber const& fiber) const;
+  static bool has_jumped(Fiber const& fiber);
   void estimate_error(Fiber& fiber) const;
 
   double viscosity_;

@@ -67,16 +67,18 @@ std::vector<NamedArray> Fibers::state() const {
   arrays.push_back(stored_ends());
   arrays.push_back(stored_loads());
   arrays.push_back(stored_late_forces());
-  std::vector<std::int64_t> counts, kinds, bodies;
+  std::vector<std::int64_t> counts, smooth, kinds, bodies;
   PointArray positions, directions;
   for (Fiber const& fiber : fibers_) {
     counts.push_back(fiber.n_past);
+    smooth.push_back(fiber.n_smooth);
     kinds.push_back(static_cast<std::int64_t>(fiber.site.kind));
     bodies.push_back(fiber.site.body);
     positions.push_back(fiber.site.position);
     directions.push_back(fiber.site.direction);
   }
   arrays.push_back(NamedArray::of("fiber/history/count", std::move(counts)));
+  arrays.push_back(NamedArray::of("fiber/history/smooth", std::move(smooth)));
   arrays.push_back(NamedArray::of("fiber/history/time_step", std::vector<double>{dt_1_, dt_2_}, "s"));
   arrays.push_back(NamedArray::of("fiber/site/kind", std::move(kinds)));
   arrays.push_back(NamedArray::of("fiber/site/body", std::move(bodies)));
@@ -106,6 +108,7 @@ void Fibers::restore(std::span<NamedArray const> state) {
   for (std::size_t i = 0; i < n; ++i)
     std::copy_n(tensions.begin() + first_node_[i], fibers_[i].tension.size(), fibers_[i].tension.begin());
   auto const& counts = stored_values<std::int64_t>(state, "fiber/history/count", n);
+  auto const& smooth = stored_values<std::int64_t>(state, "fiber/history/smooth", n);
   auto const& time_steps = stored_values(state, "fiber/history/time_step", 2);
   auto const& kinds = stored_values<std::int64_t>(state, "fiber/site/kind", n);
   auto const& bodies = stored_values<std::int64_t>(state, "fiber/site/body", n);
@@ -119,6 +122,7 @@ void Fibers::restore(std::span<NamedArray const> state) {
     fibers_[i].load = {{loads[4 * i], loads[4 * i + 1], loads[4 * i + 2]}, loads[4 * i + 3]};
     fibers_[i].late_force = point(late_forces, i);
     fibers_[i].n_past = static_cast<int>(counts[i]);
+    fibers_[i].n_smooth = static_cast<int>(smooth[i]);
     fibers_[i].site = {static_cast<MinusEnd>(kinds[i]), static_cast<int>(bodies[i]), point(positions, i),
                        point(directions, i)};
   }

@@ -12,6 +12,9 @@
 namespace asterflow {
 namespace {
 
+// A jump of a tip's force, which the step has taken up (late_share), looks like an error of the body's place: what of it counts.
+constexpr double share_after_jump = 0.1;
+
 // The fibers of a step as the scattering problem sees them.
 class SteppedFibers final : public FiberAnswers {
  public:
@@ -228,7 +231,8 @@ void Simulation::advance(Trial& trial) {
   std::vector<RigidPose> poses;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     bodies_[b].advance(trial.solution.motions[b]);
-    trial.error = std::max(trial.error, bodies_[b].error_estimate(outer_radius(bodies_[b].spec().shape)));
+    double const error = bodies_[b].error_estimate(outer_radius(bodies_[b].spec().shape));
+    trial.error = std::max(trial.error, fibers_.has_jumped(static_cast<int>(b)) ? share_after_jump * error : error);
     poses.push_back(bodies_[b].trial_pose());
   }
   fibers_.advance(ConstPoints(trial.solution.incident).first(fibers_.node_count()), trial.solution.motions, poses);
