@@ -53,11 +53,12 @@ double Pushing::growth_factor(double compression) const { return std::exp(-compr
 
 // A spring's load rises as (time in contact)^p: its mean over part of it, as a share between the first and the last value.
 double Pushing::share_of_end(Contact const& contact, double pushed) const {
-  if (spec_.sliding == Sliding::free || pushed <= 0) return 0.5;
+  bool const is_old = contact.age >= 100 * pushed;  // then it rises linearly
+  if (spec_.sliding == Sliding::free || is_old) return 0.5;
   constexpr double p = onset_power;
-  double const x = contact.age / pushed, first = std::pow(x, p), rise = std::pow(x + 1, p) - first;
-  if (x > 100) return 0.5;
-  return ((std::pow(x + 1, p + 1) - std::pow(x, p + 1)) / (p + 1) - first) / rise;
+  double const x = contact.age / pushed, first = std::pow(x, p), last = std::pow(x + 1, p);
+  double const mean = (std::pow(x + 1, p + 1) - std::pow(x, p + 1)) / (p + 1);
+  return (mean - first) / (last - first);
 }
 
 void Pushing::surround(std::size_t tip, double rate_without_load, double pushed, double compression,
