@@ -50,7 +50,6 @@ struct Load {
   }
 };
 
-
 // From outside on bodies, about their centres; of held ones NaN in states stored before their loads were.
 std::vector<Load> applied_to_bodies(Scene const& scene, Frame const& frame) {
   PointArray const forces = points_of(frame, "body/applied_force"), torques = points_of(frame, "body/applied_torque");

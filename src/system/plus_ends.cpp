@@ -164,8 +164,8 @@ void PlusEnds::plan(double dt, Fibers& fibers, std::span<RigidPose const> poses,
   }
   plane_ = fixed_plane_;
   if (dividing_body_ >= 0) {  // in the middle of the step
-    Vector6 const& motion = motions[dividing_body_];
-    plane_ = dot(poses[dividing_body_].position + 0.5 * dt * Vec3d{motion[0], motion[1], motion[2]}, posterior_);
+    Vec3d const velocity = to_vec3(motions[dividing_body_].head<3>());
+    plane_ = dot(poses[dividing_body_].position + 0.5 * dt * velocity, posterior_);
   }
   if (pulling_) pulling_->begin_step(dt);
   auto const n = static_cast<long>(surroundings_.size());
