@@ -110,6 +110,15 @@ DeviceLine DeviceFar<Real>::line(int length, std::vector<Real>& twiddles) {
   return line;
 }
 
+// A table as [|jz|, |jy|, jx]: neighbours in x are read together.
+template <class Real>
+void append_by_rows_of_x(SymbolTable<Real> const& table, std::vector<Real>& symbols) {
+  for (int jz = 0; jz <= table.modes[2]; ++jz)
+    for (int jy = 0; jy <= table.modes[1]; ++jy)
+      for (int jx = 0; jx <= table.modes[0]; ++jx)
+        symbols.push_back(table.value[(static_cast<std::size_t>(jx) * (table.modes[1] + 1) + jy) * table.stride + jz]);
+}
+
 template <class Real>
 void DeviceFar<Real>::send_patches() {
   std::vector<long> first_sources;
@@ -135,9 +144,8 @@ void DeviceFar<Real>::send_patches() {
     p.scale = view.scale;
     p.slope_scale = view.slope_scale;
     auto const [symbol, is_new] = known_symbols.try_emplace(patch.symbol.get(), static_cast<long>(symbols.size()));
-    if (is_new) symbols.insert(symbols.end(), patch.symbol->value.begin(), patch.symbol->value.end());
+    if (is_new) append_by_rows_of_x(*patch.symbol, symbols);
     p.symbol = symbol->second;
-    p.symbol_stride = view.symbol_stride;
     p.source_begin = static_cast<long>(first_sources.size());
     for (long first : patch.sources.tile_begin) first_sources.push_back(first + static_cast<long>(sources.size()));
     sources.insert(sources.end(), patch.sources.index.begin(), patch.sources.index.end());

@@ -200,7 +200,7 @@ struct DeviceSymbol {
     Real k[3];
     for (int d = 0; d < 3; ++d) k[d] = static_cast<Real>(two_pi * j[d] / patch.nodes[d]);
     long const row = static_cast<long>(j[2] < 0 ? -j[2] : j[2]) * (patch.modes[1] + 1) + (j[1] < 0 ? -j[1] : j[1]);
-    Real const s = tables.symbols(patch.symbol + row * patch.symbol_stride + j[0]);
+    Real const s = tables.symbols(patch.symbol + row * n_kx + j[0]);
     long const z = wrapped_node(j[2], patch.nodes[2]), y = wrapped_node(j[1], patch.nodes[1]);
     Real* const mode = &tables.spectrum(2 * (patch.spectrum + (z * patch.nodes[1] + y) * n_kx + j[0]));
     long const stride = 2 * patch.n_mode();

@@ -22,7 +22,6 @@ struct DevicePatch {
   long source_begin;  // position of its first block in the table of first sources
   long target_begin, n_target;
   long symbol;        // position of its table
-  int symbol_stride;
   DeviceLine lines[3];
   long grid, spectrum;  // positions of its working memory
 

@@ -123,22 +123,13 @@ void FarField<Real>::run(Batch const& batch, Vec3d* velocity, Vec3d* gradient) {
                    strengths_.data(), spectrum(i),
                    scratch<Real>(loops_.forward_scratch(window, patch, components_)));
   });
-  for (bool inverse : {false, true}) {
-    if (inverse)
-      for_all(batch, [](View const& patch) { return 2L * patch.modes[2] + 1; }, [&](View const& patch, std::size_t i, long kz) {
-        loops_.y_sweep(patch, kernel_, static_cast<int>(kz) - patch.modes[2], spectrum(i), scratch<Real>(loops_.sweep_scratch(patch)));
-      });
-    int const n_component = inverse ? 3 : components_;
-    for_all(batch, [&](View const& patch) { return n_component * (patch.modes[0] + 1L); }, [&](View const& patch, std::size_t i, long k) {
-      int const n_kx = patch.modes[0] + 1;
-      loops_.z_sweep(patch, static_cast<int>(k / n_kx), static_cast<int>(k % n_kx), inverse, spectrum(i),
-                     scratch<Real>(loops_.sweep_scratch(patch)));
-    });
-  }
+  for_all(batch, [](View const& patch) { return patch.modes[0] + 1L; }, [&](View const& patch, std::size_t i, long kx) {
+    loops_.convolve(patch, kernel_, static_cast<int>(kx), spectrum(i), scratch<Real>(loops_.convolve_scratch(patch, components_)));
+  });
   for_all(batch, [](View const& patch) { return static_cast<long>(patch.target_high[2] - patch.target_low[2]); },
           [&](View const& patch, std::size_t i, long z) {
             loops_.x_inverse(patch, patch.target_low[2] + static_cast<int>(z), spectrum(i), grid(i),
-                             scratch<Real>(loops_.sweep_scratch(patch)));
+                             scratch<Real>(loops_.inverse_scratch(patch)));
           });
   for_all(batch, tiles, [&](View const& patch, std::size_t i, long k) {
     loops_.interpolate(window, patch, orders_[batch.first + i].targets[k], &tree_->targets().data()->x, grid(i),

@@ -94,7 +94,7 @@ PatchView<Real> GridWindow<Real>::view(Patch<Real> const& patch, int lanes) cons
   constexpr long line = 64 / static_cast<long>(sizeof(Real));  // of the cache: an odd number of them, as in a tile
   if (view.velocity_row / line % 2 == 0) view.velocity_row += std::max<long>(lanes, line);
   view.spectrum_row = (view.used_high[1] - view.used_low[1] + lanes - 1) / lanes * lanes;
-  view.planes = std::max(view.used_high[2] - view.used_low[2], std::min(patch.nodes[2], 2 * view.modes[2] + 1));
+  view.planes = view.used_high[2] - view.used_low[2];
   view.crowding = patch.crowding.empty() ? nullptr : patch.crowding.data();
   view.sources = {patch.sources.index.data(), patch.sources.tile_begin.data()};
   view.targets = {patch.targets.index.data(), patch.targets.tile_begin.data()};

@@ -4,6 +4,12 @@
 namespace asterflow {
 namespace {
 
+// In numbers.
+template <class Real>
+long inverse_scratch(PatchView<Real> const& patch) {
+  return 4L * (patch.nodes[0] + patch.velocity_row + lanes<Real>) * lanes<Real>;
+}
+
 template <class Real>
 void x_inverse(PatchView<Real> const& patch, int z, Real const* spectrum, Real* grid, Real* scratch) {
   using P = Pack<Real>;

@@ -33,7 +33,7 @@ struct TileView {
 
 // A patch, see fast_patch.hpp. Grids of velocity are [z, y, 3, x] over target_low ... target_high, rows of
 // `velocity_row` numbers. The spectrum is [component, plane, kx, 2, y], rows of `spectrum_row` numbers that begin at node
-// used_low[1]; node z is plane z - used_low[2], mode kz < 0 is plane kz + planes.
+// used_low[1]; node z is plane z - used_low[2].
 template <class Real>
 struct PatchView {
   int nodes[3];
@@ -133,13 +133,13 @@ struct FastLoops {
                   Real const* strengths, Real* spectrum, Real* scratch) = nullptr;
   long (*forward_scratch)(WindowView<Real> const&, PatchView<Real> const&, int components) = nullptr;
 
-  // Transforms along z of one line of modes; the middle: along y, multiplication by the symbol, back along y.
-  void (*z_sweep)(PatchView<Real> const&, int component, int kx, bool inverse, Real* spectrum, Real* scratch) = nullptr;
-  void (*y_sweep)(PatchView<Real> const&, FastKernel kernel, int kz, Real* spectrum, Real* scratch) = nullptr;
+  // The middle, for one kx: along z and y, multiplication by the symbol, back along y and z.
+  void (*convolve)(PatchView<Real> const&, FastKernel kernel, int kx, Real* spectrum, Real* scratch) = nullptr;
+  long (*convolve_scratch)(PatchView<Real> const&, int components) = nullptr;
 
   // Back along x for one plane z, into the velocity's grid.
   void (*x_inverse)(PatchView<Real> const&, int z, Real const* spectrum, Real* grid, Real* scratch) = nullptr;
-  long (*sweep_scratch)(PatchView<Real> const&) = nullptr;
+  long (*inverse_scratch)(PatchView<Real> const&) = nullptr;
 
   // velocity [n, 3] += patch.scale * interpolated grid at the targets of one tile; likewise
   // gradient [n, 3, 3] (d velocity_i / d x_j in units of the root's side) unless null.

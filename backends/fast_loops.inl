@@ -13,8 +13,7 @@
 
 #include "backends/fast_forward.inl"
 #include "backends/fast_inverse.inl"
-#include "backends/fast_sweep_y.inl"
-#include "backends/fast_sweep_z.inl"
+#include "backends/fast_convolve.inl"
 
 #include "backends/fast_pieces.inl"
 
@@ -26,8 +25,8 @@ namespace {
 template <class Real>
 FastLoops<Real> fast_loops() {
   constexpr int tile_y = lanes<Real> > 8 ? 2 * lanes<Real> : 16;
-  return {lanes<Real>, near_polynomials<Real>, tile_y, forward<Real>, forward_scratch<Real>, z_sweep<Real>, y_sweep<Real>,
-          x_inverse<Real>, sweep_scratch<Real>, interpolate<Real>, add_near<Real>, list_near};
+  return {lanes<Real>, near_polynomials<Real>, tile_y, forward<Real>, forward_scratch<Real>, convolve<Real>,
+          convolve_scratch<Real>, x_inverse<Real>, inverse_scratch<Real>, interpolate<Real>, add_near<Real>, list_near};
 }
 
 }  // namespace

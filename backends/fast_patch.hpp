@@ -18,11 +18,11 @@ struct TiledPoints {
   std::vector<long> tile_begin;       // [n_tile + 1]
 };
 
-// Multipliers of the Fourier modes, per octant of wave numbers [|jz|, |jy|, jx]; zero outside the band.
+// Multipliers of the Fourier modes, per octant of wave numbers [jx, |jy|, |jz|]; zero outside the band.
 template <class Real>
 struct SymbolTable {
   int modes[3] = {0, 0, 0};   // largest wave number kept in each direction
-  int stride = 0;             // of jx, rounded up to whole vectors
+  int stride = 0;             // of |jz|, rounded up to whole vectors
   double band = 0.0;          // |k| kept, in units of 1 / grid spacing
   std::vector<Real> value;
 };

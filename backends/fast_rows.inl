@@ -49,14 +49,5 @@ long y_room(PatchView<Real> const& patch) {
   return (patch.nodes[1] + lanes<Real> - 1) / lanes<Real> * lanes<Real> + lanes<Real>;
 }
 
-// Scratch of a sweep along z, y or back along x, in numbers.
-template <class Real>
-long sweep_scratch(PatchView<Real> const& patch) {
-  long const along_z = 4L * patch.nodes[2], along_y = 14L * y_room(patch),
-             along_x = 4L * (patch.nodes[0] + patch.velocity_row + lanes<Real>);
-  long const most = along_x > along_y ? along_x : along_y;
-  return lanes<Real> * (most > along_z ? most : along_z);
-}
-
 }  // namespace
 }  // namespace asterflow
