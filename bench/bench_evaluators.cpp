@@ -3,10 +3,10 @@
 // the first set-up, which also pays for new memory, apart), relative L2 error on up to 2000 random targets against the
 // reference, bytes held.
 
-#include "bench/cpu_time.hpp"
 #include "bench/point_sets.hpp"
 
 #include "backends/evaluator.hpp"
+#include "base/cpu_time.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"

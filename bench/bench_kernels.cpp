@@ -6,10 +6,10 @@
 // (both threads of a sum count), so that they mean the same on a busy machine; wall time is given besides.
 
 #include "backends/backend.hpp"
+#include "base/cpu_time.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/timer.hpp"
-#include "cpu_time.hpp"
 #include "fma_peak.hpp"
 #include "kernels/list.hpp"
 

@@ -1,7 +1,7 @@
 #include "fma_peak.hpp"
 
+#include "base/cpu_time.hpp"
 #include "base/parallel.hpp"
-#include "cpu_time.hpp"
 
 #include <algorithm>
 #include <vector>
