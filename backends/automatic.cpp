@@ -3,6 +3,7 @@
 
 #include "backends/backend.hpp"
 #include "backends/fast.hpp"
+#include "backends/frame.hpp"
 #include "backends/rates.hpp"
 
 #include <cmath>
@@ -13,6 +14,10 @@ namespace {
 
 // Direct sums share some of the work between the two directions of a pair where sources are targets.
 constexpr double separate_points = 1.33;
+
+// Direct sums are in float from this accuracy on, unless points are too close for that: then in double, whose registers
+// hold half as many pairs.
+constexpr double in_float = 1e-6, in_double = 2.0;
 
 // Points below which fast sums are direct ones, and factor below the crossover of a uniform cloud where no plan
 // is needed to see that direct sums are cheaper.
@@ -57,8 +62,13 @@ class Automatic final : public Evaluator {
     if (direct * clear < usual) return {};
     if (!fast_) fast_ = make_checked_fast(kernel_, options_);
     Plan const plan = fast_->plan(sources, targets);
-    if (direct > predicted_fast(plan.cost, n)) return plan;
+    double const fast = predicted_fast(plan.cost, n);
+    if (direct > fast || (in_double * direct > fast && needs_double(sources, targets))) return plan;
     return {};
+  }
+
+  bool needs_double(ConstPoints sources, ConstPoints targets) const {
+    return options_.accuracy >= in_float && is_too_close_for_float(sources, targets, bounding_box(sources, targets));
   }
 
   std::string kernel_;

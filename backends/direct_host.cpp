@@ -65,10 +65,10 @@ class DirectHost final : public Evaluator {
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
     ASTERFLOW_REQUIRE(normals.size() == (kernel_.has_normal ? sources.size() : 0));
-    Box const box = bounding_box(sources, targets);
+    Bounds const box = bounding_box(sources, targets);
     n_source_ = sources.size();
     n_target_ = targets.size();
-    uses_float_ = in_float_ && !may_cancel() && !has_close_pair(sources, targets, closest_in_float * box.extent());
+    uses_float_ = in_float_ && !may_cancel() && !is_too_close_for_float(sources, targets, box);
     if (uses_float_)
       in_float_->set_points(sources, targets, normals, frame_of<float>(box));
     else

@@ -190,10 +190,10 @@ class DirectPortable final : public Evaluator {
 
   void set_points(ConstPoints sources, ConstPoints targets, ConstPoints normals) override {
     ASTERFLOW_REQUIRE(normals.size() == (Kernel::has_normal ? sources.size() : 0));
-    Box const box = bounding_box(sources, targets);
+    Bounds const box = bounding_box(sources, targets);
     n_source_ = sources.size();
     n_target_ = targets.size();
-    uses_float_ = may_use_float_ && !has_close_pair(sources, targets, closest_in_float * box.extent());
+    uses_float_ = may_use_float_ && !is_too_close_for_float(sources, targets, box);
     if (uses_float_)
       in_float_.set_points(sources, targets, normals, frame_of<float>(box));
     else

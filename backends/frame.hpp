@@ -18,6 +18,10 @@ inline constexpr double float_rounding = 7e-7;
 // 2^-49 of the extent. Clouds with closer pairs (coincident points apart) are summed in double.
 inline constexpr double closest_in_float = 0x1p-25;
 
+inline bool is_too_close_for_float(ConstPoints sources, ConstPoints targets, Bounds const& box) {
+  return has_close_pair(sources, targets, closest_in_float * box.extent());
+}
+
 template <class Real>
 inline constexpr int n_coordinates = sizeof(Real) == 4 ? 6 : 3;
 
@@ -29,7 +33,7 @@ struct Frame {
 // Scaled extents are below 2^12 in float: fifth powers of distances and their inverses stay within its range.
 // Below 2^61 in double: squares stay within the range of a float, from which AVX2 starts.
 template <class Real>
-Frame frame_of(Box const& box) {
+Frame frame_of(Bounds const& box) {
   int const exponent = sizeof(Real) == 4 ? 11 : 60;
   double const extent = box.extent();
   return {sizeof(Real) == 4 ? box.centre() : Vec3d{}, extent > 0.0 ? std::exp2(exponent - std::ilogb(extent)) : 1.0};

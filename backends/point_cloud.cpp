@@ -15,7 +15,7 @@ bool is_usable(Vec3d x) {
          std::abs(x.z) <= largest_coordinate;
 }
 
-void extend(Box& box, ConstPoints points, char const* what) {
+void extend(Bounds& box, ConstPoints points, char const* what) {
   for (Vec3d const& x : points) {
     if (!is_usable(x))
       throw SceneError(std::string(what) + ": point " + std::to_string(&x - points.data()) + " = (" +
@@ -46,21 +46,21 @@ struct Projected {
 
 }  // namespace
 
-double Box::extent() const {
+double Bounds::extent() const {
   Vec3d const edge = upper - lower;
   return std::max({edge.x, edge.y, edge.z});
 }
 
-Box bounding_box(ConstPoints sources, ConstPoints targets) {
+Bounds bounding_box(ConstPoints sources, ConstPoints targets) {
   if (sources.empty() && targets.empty()) return {};
   Vec3d const first = sources.empty() ? targets.front() : sources.front();
-  Box box{first, first};
+  Bounds box{first, first};
   extend(box, sources, "sources");
   extend(box, targets, "targets");
   return box;
 }
 
-bool dwarfs_sources(Box const& all, ConstPoints sources, ConstPoints targets) {
+bool dwarfs_sources(Bounds const& all, ConstPoints sources, ConstPoints targets) {
   constexpr double most = 1e20;  // pairs closer than 5e-38 of the extent are lost, here below rounding of the sources
   if (sources.empty()) return false;
   double size = bounding_box(sources, {}).extent();

@@ -6,18 +6,18 @@
 
 namespace asterflow {
 
-struct Box {
+struct Bounds {
   Vec3d lower{}, upper{};
   Vec3d centre() const { return 0.5 * (lower + upper); }
   double extent() const;  // longest edge
 };
 
 // Smallest box around sources and targets. Throws SceneError when a coordinate is not finite or beyond 1e100.
-Box bounding_box(ConstPoints sources, ConstPoints targets);
+Bounds bounding_box(ConstPoints sources, ConstPoints targets);
 
 // Whether the points reach so much farther than the sources are apart (or a lone source from the nearest target) that
 // distances between sources, scaled with all the rest, would count as none.
-bool dwarfs_sources(Box const& all, ConstPoints sources, ConstPoints targets);
+bool dwarfs_sources(Bounds const& all, ConstPoints sources, ConstPoints targets);
 
 // True when two different points of the union are closer than `distance` > 0; coincident points do not count.
 // Takes O(n log n); may answer true without need when very many points project onto the same place.

@@ -202,5 +202,21 @@ TEST(Automatic_sum, is_direct_for_few_points_and_fast_for_many) {
   EXPECT_EQ(evaluator->backend(), "fast");
 }
 
+// Direct sums are then in double and take twice as long.
+TEST(Automatic_sum, is_fast_for_fewer_points_where_two_are_too_close_for_float) {
+  auto const evaluator = make_evaluator("stokeslet", {"auto", 1e-3});
+  PointSet points = point_set("stokeslet", "uniform", 9000);
+  auto const chooses_fast = [&](long n) {
+    ConstPoints const some = ConstPoints(points.sources).first(n);
+    evaluator->set_points(some, some);
+    return evaluator->backend() == "fast";
+  };
+  long direct = 200, fast = 9000;
+  while (fast > direct + 10) (chooses_fast((direct + fast) / 2) ? fast : direct) = (direct + fast) / 2;
+  ASSERT_FALSE(chooses_fast(direct));
+  points.sources[1] = points.sources[0] + Vec3d{1e-9, 0.0, 0.0};
+  EXPECT_TRUE(chooses_fast(direct));
+}
+
 INSTANTIATE_TEST_SUITE_P(kernels, FastSum, testing::Values("stokeslet", "stresslet", "rotlet"),
                          [](auto const& kernel) { return kernel.param; });
