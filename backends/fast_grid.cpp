@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace asterflow {
 namespace {
@@ -105,21 +104,14 @@ PatchView<Real> GridWindow<Real>::view(Patch<Real> const& patch, int lanes) cons
 }
 
 template <class Real>
-void GridWindow<Real>::find_reach(Patch<Real> const& patch, PointArray const& points, std::vector<Range> const& ranges,
-                                  int (&low)[3], int (&high)[3]) const {
+void GridWindow<Real>::find_reach(Patch<Real> const& patch, PointBox const& box, int (&low)[3], int (&high)[3]) const {
   PatchView<Real> const grid = view(patch, 1);
   for (int d = 0; d < 3; ++d) {
-    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-    for (Range const& range : ranges)
-      for (long i = range.begin; i < range.end; ++i) {
-        lowest = std::min(lowest, points[i][d]);
-        highest = std::max(highest, points[i][d]);
-      }
     low[d] = high[d] = 0;
-    if (lowest > highest) continue;
+    if (box.is_empty()) continue;
     auto const first = [&](double x) { return static_cast<int>(std::floor((x - grid.corner[d]) * grid.to_nodes)); };
-    low[d] = first(lowest);
-    high[d] = first(highest) + width_;
+    low[d] = first(box.low[d]);
+    high[d] = first(box.high[d]) + width_;
     if (low[d] < 0 || high[d] > patch.nodes[d]) low[d] = 0, high[d] = patch.nodes[d];
   }
 }

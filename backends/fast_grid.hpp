@@ -26,10 +26,8 @@ class GridWindow {
   // The first node that a point's window meets in direction d, from 0 to the period.
   static int first_node(PatchView<Real> const& patch, Vec3d const& point, int d);
 
-  // The nodes that the windows of the points of the given ranges meet; in a direction in which one goes beyond the
-  // period all of them.
-  void find_reach(Patch<Real> const& patch, PointArray const& points, std::vector<Range> const& ranges, int (&low)[3],
-                  int (&high)[3]) const;
+  // The nodes that the windows of the points in a box meet; in a direction in which one goes beyond the period all of them.
+  void find_reach(Patch<Real> const& patch, PointBox const& box, int (&low)[3], int (&high)[3]) const;
 
   // Sorts the points of the given ranges into the tiles of the patch.
   TiledPoints tile(Patch<Real> const& patch, PointArray const& points, std::vector<Range> const& ranges) const;

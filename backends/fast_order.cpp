@@ -32,6 +32,13 @@ void extend(ConstPoints points, Vec3d& low, Vec3d& high) {
     }
 }
 
+// The square of the largest distance from a point.
+double largest_square(ConstPoints points, Vec3d const& from) {
+  double largest = 0.0;
+  for (Vec3d const& p : points) largest = std::max(largest, dot(p - from, p - from));
+  return largest;
+}
+
 }  // namespace
 
 bool is_same(ConstPoints a, ConstPoints b) {
@@ -55,12 +62,16 @@ int morton_coordinate(std::uint64_t key, int direction) {
 RootCube::RootCube(ConstPoints sources, ConstPoints targets, double enlargement) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   Vec3d low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
+  bool const is_self = is_same(sources, targets);
   extend(sources, low, high);
-  if (!is_same(sources, targets)) extend(targets, low, high);
+  if (!is_self) extend(targets, low, high);
   extent = high - low;
   double const widest = std::max({extent.x, extent.y, extent.z});
   side = widest > 0.0 ? widest * enlargement * (1.0 + 1e-9) : 1.0;
   extent = extent / side;
+  Vec3d const middle = low + 0.5 * (high - low);
+  double const radius = std::sqrt(std::max(largest_square(sources, middle), is_self ? 0.0 : largest_square(targets, middle)));
+  largest_distance = std::min(norm(extent), 2.0 * (1.0 + 1e-9) * radius / side);
   int exponent = 0;
   unit_side = std::frexp(side, &exponent);
   double const unit = std::ldexp(1.0, exponent);

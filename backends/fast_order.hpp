@@ -25,6 +25,7 @@ struct RootCube {
   double unit_side = 1.0;          // 0.5 ... 1, likewise once placed
   Vec3d origin, corner;            // what placing takes away; lowest corner once placed
   Vec3d extent;                    // of all points, over the side
+  double largest_distance = 0.0;   // no two points are farther apart, likewise
 
   // All coordinates finite, at least one point.
   RootCube(ConstPoints sources, ConstPoints targets, double enlargement);

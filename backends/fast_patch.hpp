@@ -7,10 +7,28 @@
 #include "backends/fast_tree.hpp"
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
 namespace asterflow {
+
+// Bounding box of the points of some ranges.
+struct PointBox {
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+  Vec3d low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
+
+  PointBox() = default;
+  PointBox(PointArray const& points, std::vector<Range> const& ranges) {
+    for (Range const& range : ranges)
+      for (long i = range.begin; i < range.end; ++i)
+        for (int d = 0; d < 3; ++d) {
+          low[d] = points[i][d] < low[d] ? points[i][d] : low[d];
+          high[d] = points[i][d] > high[d] ? points[i][d] : high[d];
+        }
+  }
+  bool is_empty() const { return low.x > high.x; }
+};
 
 // Points of a patch sorted by the grid tile that holds their first node.
 struct TiledPoints {

@@ -10,7 +10,6 @@
 #include <cmath>
 
 namespace asterflow {
-
 template <class Real>
 FarPatches<Real>::FarPatches(FastKernel kernel, FastParameters const& parameters, int lanes, int tile_y,
                              Tiling tiling)
@@ -46,7 +45,13 @@ void FarPatches<Real>::set_grid(Octree const& tree, Patch<Real>& patch, bool is_
   patch.symbol = symbol(patch, is_root);
 }
 
-// The whole domain in free space: biharmonic function cut off smoothly at the diameter plus the window,
+template <class Real>
+void FarPatches<Real>::Members::find_boxes(Octree const& tree) {
+  source_box = {tree.sources(), sources};
+  target_box = {tree.targets(), targets};
+}
+
+// The whole domain in free space: biharmonic function cut off smoothly at the largest distance of two points plus the window,
 // -(R - r)^2 / (2 R) for r < R; what it lacks, R / 2 + r^2 / (2 R), is a uniform flow
 // [after Vico, Greengard & Ferrando 2016].
 template <class Real>
@@ -54,7 +59,7 @@ void FarPatches<Real>::add_root_patch(Octree const& tree) {
   double const cutoff = std::ldexp(1.0, -tree.first_level());
   double const spacing = cutoff / parameters_.nodes_per_cutoff;
   Vec3d const extent = tree.extent();
-  reach_ = norm(extent) + cutoff;
+  reach_ = tree.largest_distance() + cutoff;
   Patch<Real> patch;
   double const margin = 0.5 * window_.width() + 1.0;
   patch.spacing = spacing;
@@ -63,67 +68,74 @@ void FarPatches<Real>::add_root_patch(Octree const& tree) {
     patch.nodes[d] = transform_length(static_cast<int>(std::ceil((extent[d] + reach_ + cutoff) / spacing + 2 * margin)));
   set_grid(tree, patch, true);
   patches_.push_back(std::move(patch));
-  tile_points(tree, 0, {{{0, static_cast<long>(tree.sources().size())}}}, {{{0, static_cast<long>(tree.targets().size())}}});
+  std::vector<Members> all(1);
+  all[0].sources = {{0, static_cast<long>(tree.sources().size())}};
+  all[0].targets = {{0, static_cast<long>(tree.targets().size())}};
+  all[0].find_boxes(tree);
+  tile_points(tree, 0, all);
 }
 
-// Of the patches from `first` on, each with its ranges of sources and targets.
+// Of the patches from `first` on.
 template <class Real>
-void FarPatches<Real>::tile_points(Octree const& tree, std::size_t first, std::vector<std::vector<Range>> const& sources,
-                                   std::vector<std::vector<Range>> const& targets) {
-  parallel_for("FarPatches::reach", static_cast<long>(2 * sources.size()), [&](long i) {
+void FarPatches<Real>::tile_points(Octree const& tree, std::size_t first, std::vector<Members> const& members) {
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    Patch<Real>& patch = patches_[first + k];
+    window_.find_reach(patch, members[k].source_box, patch.source_low, patch.source_high);
+    window_.find_reach(patch, members[k].target_box, patch.target_low, patch.target_high);
+    patch.set_tiles(tile_y_, window_.width());
+  }
+  parallel_for("FarPatches::tile_points", static_cast<long>(2 * members.size()), [&](long i) {
     std::size_t const k = i / 2;
     Patch<Real>& patch = patches_[first + k];
     if (i % 2 == 0)
-      window_.find_reach(patch, tree.sources(), sources[k], patch.source_low, patch.source_high);
+      patch.sources = tiling_(patch, tree.sources(), members[k].sources);
     else
-      window_.find_reach(patch, tree.targets(), targets[k], patch.target_low, patch.target_high);
-  });
-  for (std::size_t k = first; k < patches_.size(); ++k) patches_[k].set_tiles(tile_y_, window_.width());
-  parallel_for("FarPatches::tile_points", static_cast<long>(2 * sources.size()), [&](long i) {
-    std::size_t const k = i / 2;
-    Patch<Real>& patch = patches_[first + k];
-    if (i % 2 == 0)
-      patch.sources = tiling_(patch, tree.sources(), sources[k]);
-    else
-      patch.targets = tiling_(patch, tree.targets(), targets[k]);
+      patch.targets = tiling_(patch, tree.targets(), members[k].targets);
   });
   if (sizeof(Real) > sizeof(float) || !parameters_.sums_in_double) return;
-  for (std::size_t k = 0; k < sources.size(); ++k)
-    patches_[first + k].crowding = crowding(window_, patches_[first + k], tree.sources(), sources[k]);
+  for (std::size_t k = 0; k < members.size(); ++k)
+    patches_[first + k].crowding = crowding(window_, patches_[first + k], tree.sources(), members[k].sources);
 }
 
+// Each as small as its points allow: the kernel of a level is zero beyond the side of its boxes, so that periodic images have to
+// be at least that far away.
 template <class Real>
 void FarPatches<Real>::add_level_patches(Octree const& tree, int level) {
   double const side = std::ldexp(1.0, -level), spacing = 0.5 * side / parameters_.nodes_per_cutoff;
-  double const nodes_per_box = side / spacing;
   auto const& boxes = tree.boxes().refined()[level].boxes();
   std::size_t const n_point = (tree.sources().size() + tree.targets().size()) / 2;
   std::vector<Box const*> all;
   for (Box const& box : boxes) all.push_back(&box);
-  auto const rectangles = cover(std::move(all), nodes_per_box, parameters_.max_nodes(n_point));
-  std::size_t const first = patches_.size();
-  patches_.resize(first + rectangles.size());
-  for (std::size_t i = 0; i < rectangles.size(); ++i) {
-    Patch<Real>& patch = patches_[first + i];
-    patch.spacing = spacing;
-    for (int d = 0; d < 3; ++d) {
-      int const m = rectangles[i].high[d] - rectangles[i].low[d] + 1;
-      patch.origin[d] = (rectangles[i].low[d] - 1) * side;
-      patch.nodes[d] = transform_length(static_cast<int>(std::ceil((m + 2) * nodes_per_box)));
-    }
-    set_grid(tree, patch, false);
-  }
-  std::vector<std::vector<Range>> sources(rectangles.size()), targets(rectangles.size());
+  auto const rectangles = cover(std::move(all), side / spacing, parameters_.max_nodes(n_point));
+  std::vector<Members> members(rectangles.size());
   parallel_for("FarPatches::add_level_patches", static_cast<long>(rectangles.size()), [&](long i) {
     Rectangle const& r = rectangles[i];
-    for (Box const* box : r.boxes) targets[i].push_back(box->targets);
+    for (Box const* box : r.boxes) members[i].targets.push_back(box->targets);
     for (Box const& box : boxes) {
       bool inside = true;
       for (int d = 0; d < 3; ++d) inside = inside && box.place[d] >= r.low[d] - 1 && box.place[d] <= r.high[d] + 1;
-      if (inside) sources[i].push_back(box.sources);
+      if (inside) members[i].sources.push_back(box.sources);
     }
+    members[i].find_boxes(tree);
   });
-  tile_points(tree, first, sources, targets);
+  std::erase_if(members, [](Members const& m) { return m.source_box.is_empty() || m.target_box.is_empty(); });
+  std::size_t const first = patches_.size();
+  patches_.resize(first + members.size());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    Patch<Real>& patch = patches_[first + i];
+    patch.spacing = spacing;
+    double const margin = 0.5 * window_.width();
+    Vec3d const source_low = tree.normalised(members[i].source_box.low), source_high = tree.normalised(members[i].source_box.high);
+    Vec3d const target_low = tree.normalised(members[i].target_box.low), target_high = tree.normalised(members[i].target_box.high);
+    for (int d = 0; d < 3; ++d) {
+      double const low = std::min(source_low[d], target_low[d]), high = std::max(source_high[d], target_high[d]);
+      double const farthest = std::max(source_high[d] - target_low[d], target_high[d] - source_low[d]);
+      patch.origin[d] = low - margin * spacing;
+      patch.nodes[d] = transform_length(static_cast<int>(std::ceil(std::max((farthest + side) / spacing, (high - low) / spacing + 2.0 * margin + 2.0))));
+    }
+    set_grid(tree, patch, false);
+  }
+  tile_points(tree, first, members);
 }
 
 template <class Real>

@@ -39,10 +39,16 @@ class FarPatches {
   std::size_t memory() const;
 
  private:
+  // The points of a patch to be.
+  struct Members {
+    std::vector<Range> sources, targets;
+    PointBox source_box, target_box;
+    void find_boxes(Octree const& tree);
+  };
+
   void add_root_patch(Octree const& tree);
   void add_level_patches(Octree const& tree, int level);
-  void tile_points(Octree const& tree, std::size_t first, std::vector<std::vector<Range>> const& sources,
-                   std::vector<std::vector<Range>> const& targets);
+  void tile_points(Octree const& tree, std::size_t first, std::vector<Members> const& members);
   void set_grid(Octree const& tree, Patch<Real>& patch, bool is_root);
   std::shared_ptr<SymbolTable<Real> const> symbol(Patch<Real> const& patch, bool is_root);
   void close_batches(std::size_t first);

@@ -52,6 +52,7 @@ class Sample {
   // In the cube of that size.
   struct Ordered {
     Vec3d extent;
+    double largest_distance;
     std::vector<std::uint64_t> source_keys, target_keys;
     bool same;
     double stride;
@@ -65,7 +66,7 @@ class Sample {
   // On this thread alone.
   Ordered ordered(double enlargement) const {
     RootCube const cube(sources_, same_ ? sources_ : targets_, enlargement);
-    return {cube.extent, keys(sources_, cube), keys(targets_, cube), same_, static_cast<double>(stride_)};
+    return {cube.extent, cube.largest_distance, keys(sources_, cube), keys(targets_, cube), same_, static_cast<double>(stride_)};
   }
 
  private:
@@ -127,8 +128,8 @@ struct Grid {
 };
 
 // The grid in free space whose cutoff is the side of a box of `level`.
-Grid root_grid(Vec3d extent, FastParameters const& p, int level) {
-  double const cutoff = std::ldexp(1.0, -level), reach = norm(extent) + cutoff;
+Grid root_grid(Vec3d extent, double largest_distance, FastParameters const& p, int level) {
+  double const cutoff = std::ldexp(1.0, -level), reach = largest_distance + cutoff;
   Grid grid;
   double part[3];
   for (int d = 0; d < 3; ++d) {
@@ -144,14 +145,16 @@ Grid root_grid(Vec3d extent, FastParameters const& p, int level) {
 // That of a rectangle of refined boxes; low, high: of all of them on its level.
 Grid patch_grid(Rectangle const& r, FastParameters const& p, int const (&low)[3], int const (&high)[3]) {
   double const per_box = 2.0 * p.nodes_per_cutoff;
+  constexpr double to_images = 0.8;  // boxes, less what those at the edges have empty
   Grid grid;
   double targets[3], sources[3];
   for (int d = 0; d < 3; ++d) {
     int const boxes = r.high[d] - r.low[d] + 1;
-    double const nodes = transform_length(static_cast<int>(std::ceil((boxes + 2) * per_box)));
+    bool const has_neighbours = low[d] < r.low[d] || high[d] > r.high[d];
+    double const nodes = transform_length(static_cast<int>(std::ceil((boxes + (has_neighbours ? 2.0 : to_images)) * per_box)));
     grid.nodes *= nodes;
     targets[d] = std::min(1.0, (boxes * per_box + p.width) / nodes);
-    sources[d] = low[d] < r.low[d] || high[d] > r.high[d] ? 1.0 : targets[d];
+    sources[d] = has_neighbours ? 1.0 : targets[d];
   }
   grid.sources_y = sources[1], grid.sources_z = sources[2], grid.targets_y = targets[1], grid.targets_z = targets[2];
   return grid;
@@ -210,7 +213,7 @@ class SideSearch {
   }
 
   double root_cost(int first_level) const {
-    Grid const root = root_grid(points_.extent, p_, first_level);
+    Grid const root = root_grid(points_.extent, points_.largest_distance, p_, first_level);
     if (root.kept() > 2.0 * max_nodes_) return std::numeric_limits<double>::infinity();
     return c_.node * root.swept() + c_.point * points_.n();
   }

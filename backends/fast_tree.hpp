@@ -21,6 +21,7 @@ class Octree {
   std::vector<std::uint32_t> const& target_order() const { return is_self_ ? sources_.order : targets_.order; }
   int first_level() const { return first_level_; }
   Vec3d extent() const { return cube_.extent; }                  // of all points, normalised
+  double largest_distance() const { return cube_.largest_distance; }  // no two points are farther apart, normalised
   OctreeBoxes const& boxes() const { return boxes_; }
   std::size_t memory() const;
 

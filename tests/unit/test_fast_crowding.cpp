@@ -50,8 +50,8 @@ std::vector<double> bounds_over_sums(PointArray const& x) {
   for (int& n : patch.nodes) n = n_node;
   patch.spacing = 1.0 / n_node;
   std::vector<Range> const all{{0, static_cast<long>(x.size())}};
-  window.find_reach(patch, x, all, patch.source_low, patch.source_high);
-  window.find_reach(patch, x, all, patch.target_low, patch.target_high);
+  window.find_reach(patch, {x, all}, patch.source_low, patch.source_high);
+  window.find_reach(patch, {x, all}, patch.target_low, patch.target_high);
   patch.set_tiles(16, width);
   auto const sums = sums_of_weights(window.view(patch, 1), x);
   auto const bounds = crowding(window, patch, x, all);
