@@ -19,6 +19,9 @@ double predicted_fast(double plan_cost, double n);
 // Of a Zen 4 core with AVX-512.
 SumRates built_in_rates(std::string_view kernel, double accuracy);
 
+// Whether a host could have them, of which others are expected: the ratio of its members decides between sums.
+bool are_plausible(SumRates const& rates, SumRates const& expected);
+
 SumRates measured_rates(std::string_view kernel, double accuracy);
 
 // Stored or now measured and stored; built in where that is impossible.

@@ -51,3 +51,11 @@ TEST_F(Rates, are_built_in_where_nothing_can_be_stored) {
 TEST_F(Rates, built_in_are_those_of_a_flow_for_its_pressure) {
   EXPECT_TRUE(are_equal(built_in_rates("stresslet_pressure", 1e-7), built_in_rates("stresslet", 1e-7)));
 }
+
+TEST_F(Rates, are_implausible_where_waiting_threads_take_a_pair_for_forty_times_as_dear) {
+  SumRates const table = built_in_rates("stresslet", 1e-6);
+  EXPECT_TRUE(are_plausible(table, table));
+  EXPECT_TRUE(are_plausible({3.0 * table.pair, 3.0 * table.plan}, table));  // a slower machine
+  EXPECT_FALSE(are_plausible({40.0 * table.pair, 6.0 * table.plan}, table));
+  EXPECT_FALSE(are_plausible({table.pair, 4.0 * table.plan}, table));
+}
