@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
+#include <stdexcept>
 
 namespace asterflow {
 namespace {
@@ -24,10 +26,15 @@ long find_run(ConstPoints sources, ConstPoints targets) {
   return static_cast<long>(targets.size());
 }
 
+// Throws std::bad_alloc where memory is missing, as everything but Kokkos does.
 template <class View>
 void grow(View& numbers, long n, char const* label) {
-  if (static_cast<long>(numbers.extent(0)) < n)
+  if (static_cast<long>(numbers.extent(0)) >= n) return;
+  try {
     numbers = View(Kokkos::view_alloc(std::string("asterflow::PackedSum::") + label, Kokkos::WithoutInitializing), n);
+  } catch (std::runtime_error const&) {
+    throw std::bad_alloc();
+  }
 }
 
 }  // namespace

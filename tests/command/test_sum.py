@@ -214,15 +214,15 @@ class Sum(CommandTest):
     def test_refuses_points_that_need_more_memory_than_there_is(self):
         random = np.random.default_rng(3)
         self.write(sources=random.random((400000, 3)), targets=None, strengths=np.ones((400000, 3)))
-        limit = 300 << 20  # bytes: enough to start the program and to read the points
-        how = {
-            "env": os.environ | {"OMP_NUM_THREADS": "1"},
-            "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)),
-        }
-        if asterflow("--help", **how).returncode != 0:
-            self.skipTest("a program built with sanitizers takes more to start")
-        self.expect_refusal("sum", "-i", self.input, "-o", self.output, "--backend", "fast", "--accuracy", "1e-9",
-                            names=["not enough memory"], **how)
+        for backend, limit in ("fast", 300 << 20), ("direct", 100 << 20):  # bytes: enough to start and to read the points
+            how = {
+                "env": os.environ | {"OMP_NUM_THREADS": "1"},
+                "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)),
+            }
+            if asterflow("--help", **how).returncode != 0:
+                self.skipTest("a program built with sanitizers takes more to start")
+            self.expect_refusal("sum", "-i", self.input, "-o", self.output, "--backend", backend, "--accuracy", "1e-9",
+                                names=["not enough memory"], **how)
 
     def test_refuses_an_output_that_cannot_be_written(self):
         self.write()
