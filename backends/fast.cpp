@@ -33,7 +33,7 @@ class FastSum final : public FastEvaluator {
     direct_.reset();
     tree_.reset();
     if (n_source_ == 0 || n_target_ == 0) return;
-    if (static_cast<long>(n_source_ + n_target_) > 2 * parameters_.capacity)
+    if (!is_direct(n_source_, n_target_, parameters_))
       tree_ = std::make_unique<Octree>(sources, targets, plan.octree);
     if (!tree_ || tree_->boxes().refined().empty()) {
       direct_ = make_direct(kernel_, {.accuracy = parameters_.accuracy, .gradient = parameters_.gradient});

@@ -1,10 +1,11 @@
 // The fast backends: fast sums whose error is checked on a few targets at every sum. Parameters are chosen for the
 // error that strengths of random direction leave; where the velocities at the targets cancel, or all targets
 // are far from the sources, the same absolute error may be too large. Then a stricter sum takes over. The
-// error may be that of the few targets next to the sources, where results are large: half of those checked are drawn
-// from the eighth of largest results of the first sum.
+// error may be that of the few targets next to the sources, where results are large: half of those checked are the
+// largest and some of the eighth of largest results of the first sum. Without the largest the error is not to be too large either.
 
 #include "backends/backend.hpp"
+#include "backends/blocks.hpp"
 #include "backends/default_space.hpp"
 #include "backends/fast.hpp"
 #include "base/error.hpp"
@@ -13,19 +14,29 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 
 namespace asterflow {
 namespace {
 
 constexpr double strictest = 1e-12;   // fast sums cannot do better
-constexpr std::size_t n_checked = 96;  // targets
+constexpr std::size_t n_checked = 96;  // targets,
+constexpr std::size_t n_largest = 16;  // all of the largest results among them
 constexpr double roughly_checked = 1e-5;  // coarser ones are compared with direct sums in float
+constexpr double least_others = 0.06;   // of the squares of all results, taken for those that are not the largest
 constexpr double margin = 0.3;         // of the next accuracy, where one was missed
 
+// By blocks, the same bits for any number of threads.
 double square(ConstPoints points) {
-  double sum = 0.0;
-  for (Vec3d const& p : points) sum += dot(p, p);
-  return sum;
+  constexpr long block = 4096;
+  long const n = static_cast<long>(points.size());
+  std::vector<double> sums((n + block - 1) / block, 0.0);
+  parallel_for("Fast::square", static_cast<long>(sums.size()), [&](long k) {
+    double sum = 0.0;
+    for (long i = k * block; i < std::min(n, (k + 1) * block); ++i) sum += dot(points[i], points[i]);
+    sums[k] = sum;
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 class CheckedFast final : public FastEvaluator {
@@ -66,6 +77,7 @@ class CheckedFast final : public FastEvaluator {
   struct Checked {
     std::size_t target;
     double stands_for;  // so many targets
+    bool is_largest;    // one of n_largest
   };
   using Add = void (Evaluator::*)(ConstPoints strengths, Points result);
 
@@ -85,7 +97,7 @@ class CheckedFast final : public FastEvaluator {
       std::fill(sum.begin(), sum.end(), Vec3d{});
       (used().*add)(strengths, sum);
     }
-    for (std::size_t i = 0; i < sum.size(); ++i) result[i] += sum[i];
+    for_blocks("Fast::add", static_cast<long>(sum.size()), [&](long i) { result[i] += sum[i]; });
   }
 
   Evaluator& used() { return stricter_ ? *stricter_ : *first_; }
@@ -98,18 +110,24 @@ class CheckedFast final : public FastEvaluator {
   // Evenly in their own order, all where there are few.
   void choose_checked(std::size_t rows, ConstPoints result) {
     std::vector<double> sizes(targets().size());
-    for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = square(result.subspan(rows * i, rows));
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+      for (Vec3d const& row : result.subspan(rows * i, rows)) sizes[i] += dot(row, row);
     std::vector<double> sorted = sizes;
-    auto const eighth = sorted.begin() + static_cast<long>(sizes.size() / 8);
-    std::nth_element(sorted.begin(), eighth, sorted.end(), std::greater<>());
-    for (bool is_large : {true, false}) {
-      std::vector<std::size_t> group;
-      for (std::size_t i = 0; i < sizes.size(); ++i)
-        if ((sizes[i] > *eighth) == is_large) group.push_back(i);
-      std::size_t const n = std::min(group.size(), n_checked / 2);
-      for (std::size_t k = 0; k < n; ++k) {
-        checked_.push_back({group[(2 * k + 1) * group.size() / (2 * n)], static_cast<double>(group.size()) / static_cast<double>(n)});
-      }
+    std::size_t const n_large = std::max(n_largest, sizes.size() / 8);
+    std::vector<std::size_t> groups[3];  // largest, large, others
+    if (n_large < sizes.size()) {
+      auto const first = sorted.begin(), large = first + static_cast<long>(n_large), largest = first + static_cast<long>(n_largest);
+      std::nth_element(first, large, sorted.end(), std::greater<>());
+      std::nth_element(first, largest, large + 1, std::greater<>());
+      for (std::size_t i = 0; i < sizes.size(); ++i) groups[sizes[i] > *largest ? 0 : sizes[i] > *large ? 1 : 2].push_back(i);
+    } else {
+      for (std::size_t i = 0; i < sizes.size(); ++i) groups[2].push_back(i);
+    }
+    std::size_t const most[3] = {n_largest, n_checked / 2 - n_largest, n_checked / 2};
+    for (int g = 0; g < 3; ++g) {
+      std::size_t const size = groups[g].size(), n = std::min(size, most[g]);
+      for (std::size_t k = 0; k < n; ++k)
+        checked_.push_back({groups[g][(2 * k + 1) * size / (2 * n)], static_cast<double>(size) / static_cast<double>(n), g == 0});
     }
     is_rough_ = options_.accuracy >= roughly_checked;
     make_exact(is_rough_ ? 0.1 * options_.accuracy : fine_accuracy());
@@ -124,21 +142,25 @@ class CheckedFast final : public FastEvaluator {
     exact_->set_points(sources_, some, normals_);
   }
 
-  // Estimated error over the error asked for.
+  // Estimated error over the error asked for: of all results or, where that is more, of those that are not among the largest.
   double excess(Add add, std::size_t rows, ConstPoints strengths, ConstPoints result) {
     if (result.empty() || sources_.empty()) return 0.0;
     if (!exact_) choose_checked(rows, result);
     PointArray exact(rows * checked_.size());
     (exact_.get()->*add)(strengths, exact);
-    double error = 0.0;
+    double error = 0.0, others_error = 0.0, others_size = 0.0;
     for (std::size_t k = 0; k < exact.size(); ++k) {
-      Vec3d const difference = exact[k] - result[rows * checked_[k / rows].target + k % rows];
-      error += checked_[k / rows].stands_for * dot(difference, difference);
+      Checked const& checked = checked_[k / rows];
+      Vec3d const difference = exact[k] - result[rows * checked.target + k % rows];
+      error += checked.stands_for * dot(difference, difference);
+      if (checked.is_largest) continue;
+      others_error += checked.stands_for * dot(difference, difference);
+      others_size += checked.stands_for * dot(exact[k], exact[k]);
     }
     double const size = square(result);
     if (!std::isfinite(size)) return std::numeric_limits<double>::max();  // distances whose powers overflow
-    if (size == 0.0) return error > 0.0 ? 1.0 / options_.accuracy : 0.0;
-    return std::sqrt(error / size) / options_.accuracy;
+    auto const relative = [](double e, double s) { return s > 0.0 ? std::sqrt(e / s) : e > 0.0 ? 1.0 : 0.0; };
+    return std::max(relative(error, size), relative(others_error, std::clamp(others_size, least_others * size, size))) / options_.accuracy;
   }
 
   void tighten(double missed) {

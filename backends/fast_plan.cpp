@@ -307,11 +307,15 @@ class Search {
 
 }  // namespace
 
+bool is_direct(std::size_t n_source, std::size_t n_target, FastParameters const& p) {
+  return static_cast<long>(std::min(n_source, n_target)) <= p.capacity;
+}
+
 Plan best_plan(std::string_view kernel, ConstPoints sources, ConstPoints targets, FastParameters const& p) {
   require_finite(sources, "source", largest_place);
   require_finite(targets, "target", largest_place);
   long const n = static_cast<long>(sources.size() + targets.size()) / 2;
-  if (sources.empty() || targets.empty() || n <= p.capacity) return {};
+  if (is_direct(sources.size(), targets.size(), p)) return {};
   Costs const c = costs(p, n_component(fast_kernel(kernel)), is_same(sources, targets) && !p.gradient);
   constexpr long enough = 2500;  // of many points, to compare octrees
   Sample const sample(sources, targets, std::clamp(n / enough, 1L, 16L));

@@ -15,7 +15,10 @@ struct Plan {
   double cost = 0.0;  // predicted, of one sum, in nanoseconds of one core
 };
 
-// Throws SceneError when a coordinate is not finite. Nothing is predicted for points so few that direct sums are taken.
+// Whether sources or targets are so few that direct sums are taken: a point alone costs more on grids.
+bool is_direct(std::size_t n_source, std::size_t n_target, FastParameters const& parameters);
+
+// Throws SceneError when a coordinate is not finite. Nothing is predicted for direct sums.
 Plan best_plan(std::string_view kernel, ConstPoints sources, ConstPoints targets, FastParameters const& parameters);
 
 }  // namespace asterflow

@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+
 using namespace asterflow;
 
 namespace {
@@ -91,6 +94,24 @@ TEST_P(Gradient, of_the_fast_sum_honours_the_accuracy_where_velocities_cancel_or
       // The error is judged by a sample of the targets.
       EXPECT_LE(relative_difference(gradient(GetParam(), "fast", accuracy, p), exact), 2.0 * accuracy)
           << distance << " " << accuracy;
+  }
+}
+
+TEST_P(Gradient, of_the_fast_sum_honours_the_accuracy_without_the_few_largest_too) {
+  for (long n_source : {1, 2, 200}) {
+    PointSet const p = point_set(GetParam(), n_source, 4000);
+    PointArray exact = gradient(GetParam(), "reference", 1e-15, p);
+    std::vector<double> sizes(p.targets.size());
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+      for (int d = 0; d < 3; ++d) sizes[i] += dot(exact[3 * i + d], exact[3 * i + d]);
+    std::vector<double> sorted = sizes;
+    std::nth_element(sorted.begin(), sorted.begin() + 100, sorted.end(), std::greater<>());
+    for (double accuracy : {1e-4, 1e-6}) {
+      PointArray some = gradient(GetParam(), "fast", accuracy, p), exact_some = exact;
+      for (std::size_t i = 0; i < some.size(); ++i)
+        if (sizes[i / 3] > sorted[100]) some[i] = exact_some[i] = {};
+      EXPECT_LE(relative_difference(some, exact_some), accuracy) << n_source;
+    }
   }
 }
 
