@@ -48,6 +48,7 @@ void FarField<Real>::set_points(Octree const& tree) {
   views_.clear();
   orders_.clear();
   batches_.clear();
+  n_work_ = 0;
   for (Patch<Real> const& patch : patches_.patches()) {
     views_.push_back(patches_.window().view(patch, loops_.lanes));
     auto const n = static_cast<std::size_t>(patch.n_tile());
@@ -59,30 +60,26 @@ void FarField<Real>::set_points(Octree const& tree) {
   }
 }
 
-// Where the patches of a batch find their piece of the working memory.
+// Where the patches of a batch find their pieces of the working memory: a spectrum, of which three components come back, and
+// behind these the grid of the velocity.
 template <class Real>
-void FarField<Real>::place_work(Batch& batch) const {
-  batch.grid_begin = batch.spectrum_begin = {0};
+void FarField<Real>::place_work(Batch& batch) {
+  long place = 0;
   for (std::size_t i = batch.first; i < batch.last; ++i) {
     PatchView<Real> const& patch = views_[i];
     long const planes = patch.target_high[2] - patch.target_low[2], rows = patch.target_high[1] - patch.target_low[1];
-    batch.grid_begin.push_back(batch.grid_begin.back() + 3 * patch.velocity_row * rows * planes);
-    batch.spectrum_begin.push_back(batch.spectrum_begin.back() +
-                                   2L * components_ * patch.planes * (patch.modes[0] + 1) * patch.spectrum_row);
+    long const component = 2L * patch.planes * (patch.modes[0] + 1) * patch.spectrum_row;
+    batch.spectrum_begin.push_back(place);
+    batch.grid_begin.push_back(place + 3 * component);
+    place += std::max(components_ * component, 3 * component + 3 * patch.velocity_row * rows * planes);
   }
+  n_work_ = std::max(n_work_, place);
 }
 
 template <class Real>
-void FarField<Real>::add(Vec3d const* strengths, Vec3d const* normals, Vec3d* velocity, Vec3d* gradient) {
+void FarField<Real>::add(Vec3d const* strengths, Vec3d const* normals, Vec3d* velocity, Vec3d* gradient, Real* work) {
   set_strengths(strengths, normals);
-  long n_grid = 0, n_spectrum = 0;
-  for (Batch const& batch : batches_) {
-    n_grid = std::max(n_grid, batch.grid_begin.back());
-    n_spectrum = std::max(n_spectrum, batch.spectrum_begin.back());
-  }
-  if (static_cast<long>(grid_.size()) < n_grid) grid_ = std::vector<Real>(n_grid);
-  if (static_cast<long>(spectrum_.size()) < n_spectrum) spectrum_ = std::vector<Real>(n_spectrum);
-  for (Batch const& batch : batches_) run(batch, velocity, gradient);
+  for (Batch const& batch : batches_) run(batch, velocity, gradient, work);
   Vec3d const uniform = patches_.uniform_flow({strengths, tree_->sources().size()});
   for_blocks("FarField::add", static_cast<long>(tree_->targets().size()), [&](long i) { velocity[i] += uniform; });
 }
@@ -100,38 +97,38 @@ void FarField<Real>::set_strengths(Vec3d const* strengths, Vec3d const* normals)
 }
 
 template <class Real>
-void FarField<Real>::for_all(Batch const& batch, std::function<long(PatchView<Real> const&)> const& count,
+void FarField<Real>::for_all(char const* label, Batch const& batch, std::function<long(PatchView<Real> const&)> const& count,
                              std::function<void(PatchView<Real> const&, std::size_t, long)> const& piece) const {
   std::vector<long> begin{0};
   for (std::size_t i = batch.first; i < batch.last; ++i) begin.push_back(begin.back() + count(views_[i]));
-  parallel_for("FarField::run", begin.back(), [&](long k) {
+  parallel_for(label, begin.back(), [&](long k) {
     long const i = std::upper_bound(begin.begin(), begin.end(), k) - begin.begin() - 1;
     piece(views_[batch.first + i], i, k - begin[i]);
   });
 }
 
 template <class Real>
-void FarField<Real>::run(Batch const& batch, Vec3d* velocity, Vec3d* gradient) {
+void FarField<Real>::run(Batch const& batch, Vec3d* velocity, Vec3d* gradient, Real* work) {
   using View = PatchView<Real>;
-  auto const grid = [&](std::size_t i) { return grid_.data() + batch.grid_begin[i]; };
-  auto const spectrum = [&](std::size_t i) { return spectrum_.data() + batch.spectrum_begin[i]; };
+  auto const grid = [&](std::size_t i) { return work + batch.grid_begin[i]; };
+  auto const spectrum = [&](std::size_t i) { return work + batch.spectrum_begin[i]; };
   auto const tiles = [](View const& patch) { return static_cast<long>(patch.tiles_y) * patch.tiles_z; };
   auto const window = patches_.window().view();
 
-  for_all(batch, tiles, [&](View const& patch, std::size_t i, long k) {
+  for_all("FarField::forward", batch, tiles, [&](View const& patch, std::size_t i, long k) {
     loops_.forward(window, patch, components_, orders_[batch.first + i].sources[k], &tree_->sources().data()->x,
                    strengths_.data(), spectrum(i),
                    scratch<Real>(loops_.forward_scratch(window, patch, components_)));
   });
-  for_all(batch, [](View const& patch) { return patch.modes[0] + 1L; }, [&](View const& patch, std::size_t i, long kx) {
+  for_all("FarField::convolve", batch, [](View const& patch) { return patch.modes[0] + 1L; }, [&](View const& patch, std::size_t i, long kx) {
     loops_.convolve(patch, kernel_, static_cast<int>(kx), spectrum(i), scratch<Real>(loops_.convolve_scratch(patch, components_)));
   });
-  for_all(batch, [](View const& patch) { return static_cast<long>(patch.target_high[2] - patch.target_low[2]); },
+  for_all("FarField::x_inverse", batch, [](View const& patch) { return static_cast<long>(patch.target_high[2] - patch.target_low[2]); },
           [&](View const& patch, std::size_t i, long z) {
             loops_.x_inverse(patch, patch.target_low[2] + static_cast<int>(z), spectrum(i), grid(i),
                              scratch<Real>(loops_.inverse_scratch(patch)));
           });
-  for_all(batch, tiles, [&](View const& patch, std::size_t i, long k) {
+  for_all("FarField::interpolate", batch, tiles, [&](View const& patch, std::size_t i, long k) {
     loops_.interpolate(window, patch, orders_[batch.first + i].targets[k], &tree_->targets().data()->x, grid(i),
                        &velocity->x, gradient ? &gradient->x : nullptr);
   });
@@ -139,7 +136,7 @@ void FarField<Real>::run(Batch const& batch, Vec3d* velocity, Vec3d* gradient) {
 
 template <class Real>
 std::size_t FarField<Real>::memory() const {
-  return (grid_.capacity() + spectrum_.capacity() + strengths_.capacity()) * sizeof(Real) + patches_.memory();
+  return strengths_.capacity() * sizeof(Real) + patches_.memory();
 }
 
 template class FarField<float>;

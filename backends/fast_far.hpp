@@ -19,16 +19,17 @@ class FarField {
   // velocity [n_target] += smooth part in units of the root's side, tree order; gradient [n_target, 3] likewise,
   // unless null.
   //   strengths  [n_source], tree order; normals likewise, null for kernels without
-  void add(Vec3d const* strengths, Vec3d const* normals, Vec3d* velocity, Vec3d* gradient);
+  //   work       [n_work], overwritten
+  void add(Vec3d const* strengths, Vec3d const* normals, Vec3d* velocity, Vec3d* gradient, Real* work);
+  long n_work() const { return n_work_; }
 
-  // Of the sums' working memory, in use or not.
   std::size_t memory() const;
 
  private:
   // Patches handled together.
   struct Batch {
     std::size_t first, last;
-    std::vector<long> grid_begin, spectrum_begin;  // of each patch, and the end, in the working memory
+    std::vector<long> spectrum_begin, grid_begin;  // of each patch in the working memory
   };
 
   // Tiles of a patch, those with the most points first: one that comes last would keep the other threads waiting.
@@ -36,11 +37,11 @@ class FarField {
     std::vector<std::uint32_t> sources, targets;
   };
 
-  void place_work(Batch& batch) const;
+  void place_work(Batch& batch);
   void set_strengths(Vec3d const* strengths, Vec3d const* normals);
-  void run(Batch const& batch, Vec3d* velocity, Vec3d* gradient);
+  void run(Batch const& batch, Vec3d* velocity, Vec3d* gradient, Real* work);
   // piece(patch, its number in the batch, item) for count(patch) items of every patch.
-  void for_all(Batch const& batch, std::function<long(PatchView<Real> const&)> const& count,
+  void for_all(char const* label, Batch const& batch, std::function<long(PatchView<Real> const&)> const& count,
                std::function<void(PatchView<Real> const&, std::size_t, long)> const& piece) const;
 
   FastKernel kernel_;
@@ -51,7 +52,8 @@ class FarField {
   std::vector<PatchView<Real>> views_;  // of the patches
   std::vector<TileOrder> orders_;       // likewise
   std::vector<Batch> batches_;
-  std::vector<Real> strengths_, grid_, spectrum_;
+  std::vector<Real> strengths_;
+  long n_work_ = 0;
 };
 
 extern template class FarField<float>;

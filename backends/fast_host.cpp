@@ -6,7 +6,10 @@
 #include "backends/fast_kernel.hpp"
 #include "backends/fast_near.hpp"
 #include "backends/fast_parts.hpp"
+#include "backends/workspace.hpp"
 #include "base/parallel.hpp"
+
+#include <algorithm>
 
 namespace asterflow {
 namespace {
@@ -25,23 +28,27 @@ class HostParts final : public FastParts {
     near_.set_points(tree);
     far_.set_points(tree);
     normals_ = tree.sorted(normals);
+    work_.grow(std::max(near_.n_work(), far_.n_work()));
   }
 
   void add(ConstPoints strengths, Points velocity, Points slopes) override {
     Vec3d const* const normals = normals_.empty() ? nullptr : normals_.data();
     Vec3d* const gradient = slopes.empty() ? nullptr : slopes.data();
     near_.set_strengths(strengths.data(), normals);
-    parallel_for("Fast::near", near_.n_items(), [&](long i) { near_.add(i, velocity.data(), gradient); });
-    parallel_for("Fast::reactions", near_.n_items(), [&](long i) { near_.add_reactions(i, velocity.data()); });
-    far_.add(strengths.data(), normals, velocity.data(), gradient);
+    parallel_for("Fast::near", near_.n_items(), [&](long i) { near_.add(i, velocity.data(), gradient, work_.data()); });
+    parallel_for("Fast::reactions", near_.n_items(), [&](long i) { near_.add_reactions(i, velocity.data(), work_.data()); });
+    far_.add(strengths.data(), normals, velocity.data(), gradient, work_.data());
   }
 
-  std::size_t memory() const override { return near_.memory() + far_.memory() + sizeof(Vec3d) * normals_.capacity(); }
+  std::size_t memory() const override {
+    return near_.memory() + far_.memory() + sizeof(Real) * work_.capacity() + sizeof(Vec3d) * normals_.capacity();
+  }
 
  private:
   NearField<Real> near_;
   FarField<Real> far_;
   PointArray normals_;
+  Workspace<Real> work_;  // of the near field, then of the far field
 };
 
 }  // namespace

@@ -50,7 +50,6 @@ void NearField<Real>::make_levels() {
 template <class Real>
 void NearField<Real>::set_points(Octree& tree) {
   lists_.set_points(tree, !gradient_);
-  reactions_.grow(4 * lists_.n_place());
   velocity_scale_ = std::pow(lists_.side(), decay(kernel_)) / (8.0 * M_PI);
   make_levels();
   copy_coordinates();
@@ -126,15 +125,15 @@ void NearField<Real>::add_close(NearLists::Leaf const& leaf, Vec3d* velocity, Ve
 }
 
 template <class Real>
-void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient) {
+void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient, Real* work) const {
   NearLists::Leaf const& leaf = lists_.leaves()[item];
-  Real* const reactions = leaf.n_place > 0 ? reactions_.data() + 4 * leaf.first_place : nullptr;
+  Real* const reactions = leaf.n_place > 0 ? work + 4 * leaf.first_place : nullptr;
   std::fill_n(reactions, 4 * leaf.n_place, Real(0));
-  NearWork<Real> const work{kernel_, local_.terms, refinement_steps_, levels_.data(),
+  NearWork<Real> const near{kernel_, local_.terms, refinement_steps_, levels_.data(),
                             records_.data(), record_, &lists_.targets().data()->x, leaf.groups.data(),
                             static_cast<long>(leaf.groups.size()), leaf.segments.data(), leaf.list.data(),
                             velocity_scale_, velocity_scale_ * lists_.side(), reactions};
-  loops_.add_near(work, &velocity->x, gradient ? &gradient->x : nullptr);
+  loops_.add_near(near, &velocity->x, gradient ? &gradient->x : nullptr);
   if (leaf.close.empty()) return;
   if (kernel_ == FastKernel::stokeslet) return add_close<NearStokeslet>(leaf, velocity, gradient);
   if (kernel_ == FastKernel::rotlet) return add_close<NearRotlet>(leaf, velocity, gradient);
@@ -144,9 +143,9 @@ void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient) {
 }
 
 template <class Real>
-void NearField<Real>::add_reactions(long item, Vec3d* velocity) const {
+void NearField<Real>::add_reactions(long item, Vec3d* velocity, Real const* work) const {
   for (auto const& [points, place, leaf] : lists_.reactions_at(item)) {
-    Real const* reaction = reactions_.data() + 4 * place;
+    Real const* reaction = work + 4 * place;
     for (long i = points.begin; i < points.end; ++i, reaction += 4)
       for (int d = 0; d < 3; ++d) velocity[i][d] += velocity_scale_ * static_cast<double>(reaction[d]);
   }
@@ -154,7 +153,7 @@ void NearField<Real>::add_reactions(long item, Vec3d* velocity) const {
 
 template <class Real>
 std::size_t NearField<Real>::memory() const {
-  return (records_.capacity() + reactions_.capacity()) * sizeof(Real) + lists_.memory();
+  return records_.capacity() * sizeof(Real) + lists_.memory();
 }
 
 template class NearField<float>;

@@ -26,10 +26,11 @@ class NearField {
   long n_items() const { return static_cast<long>(lists_.leaves().size()); }
 
   // velocity [n_target] += the local part in units of the root's side, for the targets of one
-  // leaf; tree order. gradient [n_target, 3] likewise, unless null. Reactions are kept,
-  void add(long item, Vec3d* velocity, Vec3d* gradient);
+  // leaf; tree order. gradient [n_target, 3] likewise, unless null. Reactions are kept in work [n_work],
+  void add(long item, Vec3d* velocity, Vec3d* gradient, Real* work) const;
   // and those at one leaf added once all leaves are through.
-  void add_reactions(long item, Vec3d* velocity) const;
+  void add_reactions(long item, Vec3d* velocity, Real const* work) const;
+  long n_work() const { return 4 * lists_.n_place(); }
 
   std::size_t memory() const;
 
@@ -52,8 +53,7 @@ class NearField {
   bool gradient_;
   int record_;  // numbers per source: coordinates (float: high and low parts), strength, normal
   std::vector<NearLevel<Real>> levels_;
-  Workspace<Real> records_;    // [source, record]
-  Workspace<Real> reactions_;  // [place, 4]
+  Workspace<Real> records_;  // [source, record]
   Vec3d const* strengths_ = nullptr;
   Vec3d const* normals_ = nullptr;
   double velocity_scale_ = 1.0;

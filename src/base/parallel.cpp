@@ -29,7 +29,7 @@ std::string kokkos_version() {
 int thread_count() { return HostThreads().concurrency(); }
 
 void parallel_ranges(char const* label, long n, RangeCall call, void const* body) {
-  long const size = std::max(1L, n / (16 * thread_count()));  // short enough for uneven work, long enough for even
+  long const size = std::max(1L, n / (64 * thread_count()));  // short enough for uneven work, long enough for even
   std::exception_ptr failure;
   std::mutex guard;
   Kokkos::RangePolicy<HostThreads, Kokkos::Schedule<Kokkos::Dynamic>, Kokkos::IndexType<long>> policy(0, (n + size - 1) / size);
