@@ -11,10 +11,31 @@
 #include "backends/finite.hpp"
 #include "base/error.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace asterflow {
 namespace {
+
+// Of their sizes; infinite where one is not a number.
+double largest_component(ConstPoints points) {
+  constexpr long block = 4096;
+  long const n = static_cast<long>(points.size());
+  std::vector<double> of_block((n + block - 1) / block, 0.0);
+  parallel_for("Fast::largest_component", static_cast<long>(of_block.size()), [&](long k) {
+    double largest = 0.0;
+    bool is_number = true;
+    for (long i = k * block; i < std::min(n, (k + 1) * block); ++i)
+      for (int d = 0; d < 3; ++d) {
+        double const size = std::abs(points[i][d]);
+        is_number = is_number && size == size;
+        largest = std::max(largest, size);
+      }
+    of_block[k] = is_number ? largest : std::numeric_limits<double>::infinity();
+  });
+  return of_block.empty() ? 0.0 : *std::max_element(of_block.begin(), of_block.end());
+}
 
 class FastSum final : public FastEvaluator {
  public:
@@ -78,9 +99,8 @@ class FastSum final : public FastEvaluator {
   // slopes [n_target, 3], its gradient in units of the root's side, unless empty.
   double evaluate(ConstPoints strengths, Points slopes) {
     ASTERFLOW_REQUIRE(strengths.size() == n_source_);
-    require_finite(strengths, "strength");
-    double largest = 0.0;
-    for (Vec3d const& q : strengths) largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+    double const largest = largest_component(strengths);
+    if (!(largest < 1e150)) require_finite(strengths, "strength");
     if (largest == 0.0 || n_target_ == 0) return 0.0;
     sorted_.resize(n_source_);
     for_blocks("Fast::sort", static_cast<long>(n_source_),

@@ -68,7 +68,7 @@ class CheckedFast final : public FastEvaluator {
 
   std::string_view backend() const override { return name_; }
   std::size_t memory() const override {
-    std::size_t bytes = sizeof(Vec3d) * (sources_.capacity() + targets_.capacity() + normals_.capacity());
+    std::size_t bytes = sizeof(Vec3d) * (sources_.capacity() + targets_.capacity() + normals_.capacity() + sum_.capacity());
     for (Evaluator const* part : {stricter_.get(), exact_.get()}) bytes += part ? part->memory() : 0;
     return bytes + first_->memory();
   }
@@ -84,7 +84,10 @@ class CheckedFast final : public FastEvaluator {
   // Stricter until the error at the checked targets is what was asked for. `rows` points of the result per target. Where exact
   // sums in float say that it is not, they are done in double first: they may be what is wrong.
   void add_checked(Add add, std::size_t rows, ConstPoints strengths, Points result) {
-    PointArray sum(result.size());
+    PointArray& sum = sum_;
+    sum.resize(result.size());
+    auto const clear = [&] { for_blocks("Fast::clear", static_cast<long>(sum.size()), [&](long i) { sum[i] = {}; }); };
+    clear();
     (used().*add)(strengths, sum);
     for (double missed = excess(add, rows, strengths, sum); missed > options_.largest_excess; missed = excess(add, rows, strengths, sum)) {
       if (is_rough_) {
@@ -94,7 +97,7 @@ class CheckedFast final : public FastEvaluator {
       }
       if (accuracy_ < strictest) break;  // direct sums
       tighten(missed);
-      std::fill(sum.begin(), sum.end(), Vec3d{});
+      clear();
       (used().*add)(strengths, sum);
     }
     for_blocks("Fast::add", static_cast<long>(sum.size()), [&](long i) { result[i] += sum[i]; });
@@ -182,6 +185,7 @@ class CheckedFast final : public FastEvaluator {
   bool is_strictest_ = false;
   bool is_self_ = false;   // targets are the sources
   PointArray sources_, targets_, normals_;
+  PointArray sum_;  // of the last strengths
   std::vector<Checked> checked_;
   std::unique_ptr<FastEvaluator> first_;
   std::unique_ptr<Evaluator> stricter_;  // in place of first_ where that was not enough

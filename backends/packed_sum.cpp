@@ -1,6 +1,6 @@
 #include "backends/packed_sum.hpp"
 
-#include "base/parallel.hpp"
+#include "backends/blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,8 @@ namespace {
 
 constexpr long smallest_self_sum = 512;  // below, sharing the work both ways costs more than it saves
 constexpr long groups_per_task = 8;      // of targets, in the sum one way
+constexpr long most_parts = 16;          // of the sources where tasks are few,
+constexpr long sources_per_part = 4096;  // with so many or more
 
 // Where the sources appear among the targets as one run; targets.size() when they do not. A few places that
 // begin like the sources are tried.
@@ -55,7 +57,9 @@ void PackedSum<Real>::set_points(ConstPoints sources, ConstPoints targets, Const
   grow(rows_, n_self_ > 0 ? n_row_group * lanes * width : 0, "rows");
   grow(row_velocity_, n_self_ > 0 ? n_row_group * lanes * 3 : 0, "row_velocity");
   grow(targets_, n_group * lanes * n_coordinates<Real>, "targets");
-  grow(target_velocity_, n_group * lanes * 3, "target_velocity");
+  long const n_task = (n_group + groups_per_task - 1) / groups_per_task;
+  n_part_ = n_task > most_parts ? 1 : std::clamp(n_source_ / sources_per_part, 1L, most_parts);
+  grow(target_velocity_, n_part_ * n_group * lanes * 3, "target_velocity");
 
   std::fill_n(&records_(n_row_group * lanes * width), width, Real(0));
   // Padding repeats the last point; as a source it has strength 0.
@@ -94,33 +98,35 @@ void PackedSum<Real>::pack_strengths(ConstPoints strengths) {
   strength_unit_ = strength_unit(strengths);
   double const scale = 1.0 / strength_unit_;
   long const n_padded = (n_source_ + lanes - 1) / lanes * lanes;
-  for (long j = 0; j < n_padded; ++j) {
+  for_blocks("PackedSum::pack_strengths", n_padded, [&](long j) {
     Vec3d const q = j < n_source_ ? scale * strengths[j] : Vec3d{};
     put(&records_(j * width + n_coordinates<Real>), 1, q);
     if (n_self_ > 0) put(&rows_((j / lanes) * lanes * width + n_coordinates<Real> * lanes + j % lanes), lanes, q);
-  }
+  });
 }
 
-// Other targets from all sources, and every block from itself.
+// Other targets from all sources, a part of them at a time where targets are few, and every block from itself.
 template <class Real>
 void PackedSum<Real>::sum_one_way() {
   long const lanes = loops_.lanes, width = n_numbers(), stride = n_coordinates<Real> * lanes;
   long const n_group = (n_target_ - n_self_ + lanes - 1) / lanes;
   long const n_task = (n_group + groups_per_task - 1) / groups_per_task;
-  parallel_for("PackedSum::sum_one_way", n_task + static_cast<long>(blocks_.size()), [&](long task) {
-    if (task < n_task) {
-      long const first = task * groups_per_task, n = std::min(groups_per_task, n_group - first);
-      double* const velocity = &target_velocity_(first * 3 * lanes);
+  parallel_for("PackedSum::sum_one_way", n_part_ * n_task + static_cast<long>(blocks_.size()), [&](long task) {
+    if (task < n_part_ * n_task) {
+      long const part = task / n_task, first = task % n_task * groups_per_task, n = std::min(groups_per_task, n_group - first);
+      long const source = part * n_source_ / n_part_, n_source = (part + 1) * n_source_ / n_part_ - source;
+      double* const velocity = target_velocity_.data() + (part * n_group + first) * 3 * lanes;
       std::fill_n(velocity, n * 3 * lanes, 0.0);
-      loops_.add_one_way(&targets_(first * stride), n, stride, records_.data(), n_source_, velocity);
+      loops_.add_one_way(&targets_(first * stride), n, stride, records_.data() + source * width, n_source, velocity);
     } else {
-      Block const& block = blocks_[task - n_task];
+      Block const& block = blocks_[task - n_part_ * n_task];
       double* const velocity = &row_velocity_(block.first_group * 3 * lanes);
       std::fill_n(velocity, block.n_group * 3 * lanes, 0.0);
       loops_.add_one_way(&rows_(block.first_group * lanes * width), block.n_group, width * lanes,
                          &records_(block.first_group * lanes * width), block.n_group * lanes, velocity);
     }
   });
+  for (long i = n_group * 3 * lanes; i < n_part_ * n_group * 3 * lanes; ++i) target_velocity_(i % (n_group * 3 * lanes)) += target_velocity_(i);
 }
 
 template <class Real>

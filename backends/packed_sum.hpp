@@ -53,6 +53,7 @@ class PackedSum {
   Frame frame_;
   long n_source_ = 0, n_target_ = 0;
   long first_self_ = 0, n_self_ = 0;  // targets first_self_ ... first_self_ + n_self_ - 1 are the sources
+  long n_part_ = 1;               // of the sources, summed apart where other targets are few
   double strength_unit_ = 1.0;
   std::vector<Block> blocks_;     // of the sources, for the sum both ways
   Numbers<Real> records_;         // [sources, padded to whole groups, and one][n_numbers]
