@@ -75,13 +75,14 @@ class Trial {
     evaluator_->add_velocity(strengths_, velocity_);  // takes its memory
   }
 
-  // Wall seconds. For the rates those that other programs took do not count, where the host's clocks tell.
+  // Wall seconds. For the rates of one thread those that other programs took do not count; the processor time of several threads
+  // is known to a tick of the system only.
   double repeat() {
     Timer const timer;
     double const before = cpu_seconds();
     evaluator_->add_velocity(strengths_, velocity_);
     double const took = timer.seconds();
-    double const seconds = default_space_is_host ? (cpu_seconds() - before) / thread_count() : took;
+    double const seconds = default_space_is_host && thread_count() == 1 ? cpu_seconds() - before : took;
     seconds_.insert(std::upper_bound(seconds_.begin(), seconds_.end(), seconds), seconds);
     return took;
   }

@@ -1,5 +1,5 @@
 // Time and error of pair sums by every backend asked for. One JSON record per line on standard output:
-// set-up and execute seconds (wall and CPU over all threads, best of the repetitions, every set-up with an evaluator of its own;
+// set-up and execute seconds (wall of the best of the repetitions and CPU over all threads in it, every set-up with an evaluator of its own;
 // the first set-up, which also pays for new memory, apart), relative L2 error on up to 2000 random targets against the
 // reference, bytes held.
 
@@ -73,8 +73,10 @@ void measure(Choice const& choice, std::string const& backend, std::string const
     double const before = cpu_seconds();
     timer.restart();
     evaluator->set_points(problem.points, problem.points, problem.normals);
-    set_up = std::min(set_up, timer.seconds());
-    set_up_cpu = std::min(set_up_cpu, cpu_seconds() - before);
+    if (double const seconds = timer.seconds(); seconds < set_up) {
+      set_up = seconds;
+      set_up_cpu = cpu_seconds() - before;
+    }
     if (i == 0) first_set_up = set_up;
   }
   for (int i = 0; i < choice.repetitions; ++i) {
@@ -82,8 +84,10 @@ void measure(Choice const& choice, std::string const& backend, std::string const
     double const before = cpu_seconds();
     timer.restart();
     evaluator->add_velocity(problem.strengths, velocity);
-    wall = std::min(wall, timer.seconds());
-    cpu = std::min(cpu, cpu_seconds() - before);
+    if (double const seconds = timer.seconds(); seconds < wall) {
+      wall = seconds;
+      cpu = cpu_seconds() - before;
+    }
   }
   fmt::print("{{\"backend\": \"{}\", \"used\": \"{}\", \"kernel\": \"{}\", \"distribution\": \"{}\", \"n\": {}, "
              "\"accuracy\": {:.1e}, \"error\": {:.2e}, \"first_set_up_seconds\": {:.4g}, \"set_up_seconds\": {:.4g}, \"set_up_cpu_seconds\": {:.4g}, "
