@@ -200,6 +200,41 @@ inline void transpose(Pack<Real>* rows) {
     for (int j = 0; j < n; ++j) out[i][j] = in[j][i];
   std::memcpy(rows, out, sizeof out);
 }
+// In double by pairs of rows and then by squares of 2 x 2 numbers, which compilers do number by number.
+#if defined(__AVX512F__)
+template <>
+inline void transpose<double>(Pack<double>* rows) {
+  __m512d pairs[8];
+  for (int i = 0; i < 8; i += 2) {
+    pairs[i] = _mm512_unpacklo_pd((__m512d)rows[i], (__m512d)rows[i + 1]);
+    pairs[i + 1] = _mm512_unpackhi_pd((__m512d)rows[i], (__m512d)rows[i + 1]);
+  }
+  for (int i = 0; i < 2; ++i) {
+    constexpr int even = 0x88, odd = 0xdd;
+    __m512d const a = _mm512_shuffle_f64x2(pairs[i], pairs[i + 2], even), b = _mm512_shuffle_f64x2(pairs[i], pairs[i + 2], odd);
+    __m512d const c = _mm512_shuffle_f64x2(pairs[i + 4], pairs[i + 6], even), d = _mm512_shuffle_f64x2(pairs[i + 4], pairs[i + 6], odd);
+    rows[i] = (Pack<double>)_mm512_shuffle_f64x2(a, c, even);
+    rows[i + 2] = (Pack<double>)_mm512_shuffle_f64x2(b, d, even);
+    rows[i + 4] = (Pack<double>)_mm512_shuffle_f64x2(a, c, odd);
+    rows[i + 6] = (Pack<double>)_mm512_shuffle_f64x2(b, d, odd);
+  }
+}
+#elif defined(__AVX2__)
+template <>
+inline void transpose<double>(Pack<double>* rows) {
+  for (int i = 0; i < 4; i += 2) {
+    __m256d const low = _mm256_unpacklo_pd((__m256d)rows[i], (__m256d)rows[i + 1]);
+    __m256d const high = _mm256_unpackhi_pd((__m256d)rows[i], (__m256d)rows[i + 1]);
+    rows[i] = (Pack<double>)low;
+    rows[i + 1] = (Pack<double>)high;
+  }
+  for (int i = 0; i < 2; ++i) {
+    __m256d const a = (__m256d)rows[i], b = (__m256d)rows[i + 2];
+    rows[i] = (Pack<double>)_mm256_permute2f128_pd(a, b, 0x20);
+    rows[i + 2] = (Pack<double>)_mm256_permute2f128_pd(a, b, 0x31);
+  }
+}
+#endif
 
 }  // namespace
 }  // namespace asterflow
