@@ -80,7 +80,7 @@ long forward_scratch(WindowView<Real> const& window, PatchView<Real> const& patc
   long const row = tile_row(patch, window.padded);
   constexpr long per_double = sizeof(double) / sizeof(Real);
   long const stride = window.sums_in_double ? per_double * tile_stride<double>(row) : tile_stride<Real>(row);
-  return 4L * (patch.tile_y * patch.tile_z * components * stride + line_room(patch, row) * lanes<Real>);  // the last tiles are larger
+  return 4L * ((patch.tile_y * patch.tile_z + 1L) * components * stride + line_room(patch, row) * lanes<Real>);  // the last tiles are larger
 }
 
 // unit: see TileGrid.

@@ -30,6 +30,13 @@ std::vector<double> interval_polynomial(KaiserBessel const& window, int width, i
   return sum;
 }
 
+// A number of its own for every column of a tile; the window begins at node x of the period and row y of the tile.
+std::uint64_t column_of(int x, int y, int width) {
+  constexpr int group = PointColumn::rows_at_once;
+  int const more = (y % group + width - 1) / group > (width - 1) / group;  // groups that the window meets: one more, or not
+  return static_cast<std::uint64_t>(2 * (y / group) + more) << 16 | static_cast<std::uint64_t>(x / (PointColumn::nodes + 1 - width));
+}
+
 int wrapped(int i, int n) { return i < 0 ? i + n : i >= n ? i - n : i; }
 
 }  // namespace
@@ -95,8 +102,8 @@ PatchView<Real> GridWindow<Real>::view(Patch<Real> const& patch, int lanes) cons
   view.spectrum_row = (view.used_high[1] - view.used_low[1] + lanes - 1) / lanes * lanes;
   view.planes = view.used_high[2] - view.used_low[2];
   view.crowding = patch.crowding.empty() ? nullptr : patch.crowding.data();
-  view.sources = {patch.sources.index.data(), patch.sources.tile_begin.data()};
-  view.targets = {patch.targets.index.data(), patch.targets.tile_begin.data()};
+  view.sources = {patch.sources.index.data(), patch.sources.tile_begin.data(), patch.sources.column.empty() ? nullptr : patch.sources.column.data()};
+  view.targets = {patch.targets.index.data(), patch.targets.tile_begin.data(), patch.targets.column.empty() ? nullptr : patch.targets.column.data()};
   view.symbol_stride = patch.symbol ? patch.symbol->stride : 0;
   view.band = patch.symbol ? patch.symbol->band : 0.0;
   view.symbol = patch.symbol ? patch.symbol->value.data() : nullptr;
@@ -141,7 +148,31 @@ TiledPoints GridWindow<Real>::tile(Patch<Real> const& patch, PointArray const& p
   long k = 0;
   for (Range const& range : ranges)
     for (long i = range.begin; i < range.end; ++i, ++k) tiled.index[next[tiles[k]]++] = static_cast<std::uint32_t>(i);
+  if (sizeof(Real) == sizeof(double)) sort_by_column(patch, points, tiled);
   return tiled;
+}
+
+template <class Real>
+void GridWindow<Real>::sort_by_column(Patch<Real> const& patch, PointArray const& points, TiledPoints& tiled) const {
+  PatchView<Real> const grid = view(patch, 1);
+  tiled.column.resize(tiled.index.size());
+  std::vector<std::uint64_t> keys;  // column, first node along z, index
+  for (long tile = 0; tile < patch.n_tile(); ++tile) {
+    auto const [y_begin, y_end, z_begin, z_end] = patch.tile_nodes(tile);
+    long const begin = tiled.tile_begin[tile], end = tiled.tile_begin[tile + 1];
+    keys.clear();
+    for (long k = begin; k < end; ++k) {
+      Vec3d const& point = points[tiled.index[k]];
+      std::uint64_t const column = column_of(first_node(grid, point, 0), first_node(grid, point, 1) - y_begin, width_);
+      auto const z = static_cast<std::uint64_t>(first_node(grid, point, 2) - z_begin);
+      keys.push_back((column << 8 | z) << 32 | tiled.index[k]);
+    }
+    std::sort(keys.begin(), keys.end());
+    for (long k = begin; k < end; ++k) {
+      tiled.index[k] = static_cast<std::uint32_t>(keys[k - begin]);
+      tiled.column[k] = static_cast<std::uint32_t>(keys[k - begin] >> 40);
+    }
+  }
 }
 
 template class GridWindow<float>;

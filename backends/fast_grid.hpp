@@ -33,6 +33,8 @@ class GridWindow {
   TiledPoints tile(Patch<Real> const& patch, PointArray const& points, std::vector<Range> const& ranges) const;
 
  private:
+  void sort_by_column(Patch<Real> const& patch, PointArray const& points, TiledPoints& tiled) const;
+
   int width_, padded_, degree_;
   double shape_;
   bool sums_in_double_;

@@ -67,6 +67,7 @@ struct GridPlace {
   int first[3];
   Real z[3];
 
+  GridPlace() = default;
   GridPlace(PatchView<Real> const& patch, double const* point) {
     for (int d = 0; d < 3; ++d) {
       double const xi = (point[d] - patch.corner[d]) * patch.to_nodes;
@@ -97,6 +98,7 @@ void weights(Real const* coefficients, int degree, Real const (&z)[3], Row<Real,
 // Nodes of one row of a tile, from the first that sources reach; ghosts that continue the period and padding included.
 template <class Real>
 long tile_row(PatchView<Real> const& patch, int padded) {
+  if (patch.sources.column) padded = PointColumn::nodes;
   return (patch.source_high[0] - patch.source_low[0] + padded + lanes<Real> - 1) / lanes<Real> * lanes<Real>;
 }
 
@@ -206,14 +208,6 @@ void spread_rows(WindowView<Real> const& window, PatchView<Real> const& patch, T
   });
 }
 
-template <class Real, class Sum, int components>
-void spread(WindowView<Real> const& window, PatchView<Real> const& patch, TileGrid<Real, Sum> const& tile,
-            double const* points, Real const* strengths) {
-  if (window.padded == 8) return spread_rows<Real, Sum, 8, components>(window, patch, tile, points, strengths);
-  if (window.padded == 12) return spread_rows<Real, Sum, 12, components>(window, patch, tile, points, strengths);
-  spread_rows<Real, Sum, 16, components>(window, patch, tile, points, strengths);
-}
-
 // Sums of the three velocity components, weighted along y by wy and along z by wz; rows along x remain.
 template <class Real, int padded>
 void gather(Real const* corner, int width, long row, long stride_z, Real const* wy, Real const* wz,
@@ -259,14 +253,6 @@ void interpolate_rows(WindowView<Real> const& window, PatchView<Real> const& pat
     gather<Real, padded>(corner, window.width, row, stride_z, wy, sz, sum);
     for (int c = 0; c < 3; ++c) gradient[9 * i + 3 * c + 2] += slope_scale * sum[c].dot(w[0]);
   }
-}
-
-template <class Real>
-void interpolate(WindowView<Real> const& window, PatchView<Real> const& patch, long tile, double const* points,
-                 Real const* grid, double* velocity, double* gradient) {
-  if (window.padded == 8) return interpolate_rows<Real, 8>(window, patch, tile, points, grid, velocity, gradient);
-  if (window.padded == 12) return interpolate_rows<Real, 12>(window, patch, tile, points, grid, velocity, gradient);
-  interpolate_rows<Real, 16>(window, patch, tile, points, grid, velocity, gradient);
 }
 
 }  // namespace

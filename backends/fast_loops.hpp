@@ -25,10 +25,17 @@ struct WindowView {
   bool sums_in_double = false;         // strengths add up on the grid in double or, as exactly, in whole numbers
 };
 
-// Points of a patch by grid tile: indices index[begin[tile]] ... index[begin[tile + 1]].
+// Points of a patch by grid tile: indices index[begin[tile]] ... index[begin[tile + 1]]; column: of each, or null.
 struct TileView {
   std::uint32_t const* index = nullptr;
   long const* begin = nullptr;
+  std::uint32_t const* column = nullptr;
+};
+
+// Points of a tile whose windows lie within the same `nodes` nodes along x and, along y, within as few of the tile's groups of
+// `rows_at_once` rows as possible.
+struct PointColumn {
+  static constexpr int nodes = 16, rows_at_once = 4;
 };
 
 // A patch, see fast_patch.hpp. Grids of velocity are [z, y, 3, x] over target_low ... target_high, rows of

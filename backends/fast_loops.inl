@@ -8,6 +8,7 @@
 
 #include "backends/fast_fourier.inl"
 #include "backends/fast_grid.inl"
+#include "backends/fast_columns.inl"
 
 #include "backends/fast_rows.inl"
 

@@ -30,10 +30,12 @@ struct PointBox {
   bool is_empty() const { return low.x > high.x; }
 };
 
-// Points of a patch sorted by the grid tile that holds their first node.
+// Points of a patch sorted by the grid tile that holds their first node. Within a tile, where `column` is not empty, by
+// column (see fast_loops.hpp) and first node along z.
 struct TiledPoints {
   std::vector<std::uint32_t> index;   // in the order of the tree
   std::vector<long> tile_begin;       // [n_tile + 1]
+  std::vector<std::uint32_t> column;  // of each of them
 };
 
 // Multipliers of the Fourier modes, per octant of wave numbers [jx, |jy|, |jz|]; zero outside the band.
