@@ -18,10 +18,7 @@ template <class Real>
 class HostParts final : public FastParts {
  public:
   HostParts(std::string_view kernel, FastParameters const& parameters, FastInstructions instructions)
-      : near_(fast_kernel(kernel), fast_loops_of<Real>(instructions),
-              KernelSplit(parameters.split_shape).local_part(kernel, parameters.local_tolerance,
-                                                           fast_loops_of<Real>(instructions).near_polynomials.pieces),
-              parameters.refinement_steps, parameters.gradient),
+      : near_(near_field(kernel, parameters, fast_loops_of<Real>(instructions))),
         far_(fast_kernel(kernel), fast_loops_of<Real>(instructions), parameters) {}
 
   void set_points(Octree& tree, ConstPoints normals) override {
@@ -45,6 +42,15 @@ class HostParts final : public FastParts {
   }
 
  private:
+  static NearField<Real> near_field(std::string_view kernel, FastParameters const& p, FastLoops<Real> const& loops) {
+    KernelSplit const split(p.split_shape);
+    NearPolynomials const& compiled = loops.near_polynomials;
+    bool const has_outer = compiled.has_outer && !p.gradient;
+    return {fast_kernel(kernel), loops, split.local_part(kernel, p.local_tolerance, compiled.pieces),
+            has_outer ? split.outer_part(kernel, p.local_tolerance, OuterLevel::pieces, OuterLevel::most) : OuterPart{},
+            p.refinement_steps, p.gradient};
+  }
+
   NearField<Real> near_;
   FarField<Real> far_;
   PointArray normals_;

@@ -67,9 +67,19 @@ struct NearLevel {
   alignas(64) Real a[max_coefficients], b[max_coefficients];
 };
 
-// Pieces, and terms of each that the loops are compiled for: fewest, fewest + step, ... most.
+// Pieces, and terms of each that the loops are compiled for: fewest, fewest + step, ... most. has_outer: pairs far enough apart
+// can be summed in float.
 struct NearPolynomials {
   int pieces = 1, fewest = 0, step = 1, most = 0;
+  bool has_outer = false;
+};
+
+// The whole local part in float between some distance and the cutoff, see OuterPart.
+struct OuterLevel {
+  static constexpr int pieces = 16, fewest = 5, most = 7;
+  double to_cutoff;  // 1 / cutoff: unit of r below
+  float to_pieces, shift;  // x = to_pieces r^2 + shift within 1/2 of i in piece i
+  alignas(64) float first[most * pieces], second[most * pieces];
 };
 
 // Sources base + list[i] act at the cutoff of `level`, up to position `end` of the list. Their reactions are summed from
@@ -80,11 +90,11 @@ struct NearSegment {
   std::int32_t level, reaction;
 };
 
-// One vector of targets, and its segments up to segment_end.
+// One vector of targets, and its segments up to segment_end; those of outer sources up to outer_end.
 struct NearGroup {
   long target;
   int n_target;
-  std::uint32_t segment_end;
+  std::uint32_t segment_end, outer_end;
 };
 
 // The local part at the targets of one leaf.
@@ -102,6 +112,10 @@ struct NearWork {
   std::uint16_t const* list;
   double velocity_scale, gradient_scale;
   Real* reactions;  // [place, 4], added to: three components and padding; null where all pairs are one way
+  OuterLevel const* outer_levels;  // null where no sources are apart
+  int outer_terms;
+  NearSegment const* outer_segments;
+  std::uint16_t const* outer_list;
 };
 
 // Which sources may lie within `reach` of a group of targets t, all in normalised float coordinates.
@@ -113,17 +127,18 @@ struct NearQuery {
   float targets[3][max_target], squares[max_target];  // 2 (t - middle), |t - middle|^2
   int n_target;
   float reach;
+  float inner;  // sources farther from all targets are put apart, if in reach
 };
 
 // Sources whose local parts are summed before the sum goes to double: in float every term rounds the sum of those before it.
 template <class Real>
 inline constexpr long near_run = sizeof(Real) == 4 ? 32 : 1L << 40;
 
-// Where a search for sources writes, with room for as many as are searched + NearQuery::max_target: the sources in reach,
-// and the places among them of those that may touch a target.
+// Where a search for sources writes, with room for as many as are searched + NearQuery::max_target: the sources in reach
+// and not put apart, the places among them of those that may touch a target, and the sources put apart.
 struct NearFound {
-  std::uint16_t *sources, *touching;
-  long n_source = 0, n_touching = 0;
+  std::uint16_t *sources, *touching, *outer;
+  long n_source = 0, n_touching = 0, n_outer = 0;
 };
 
 template <class Real>

@@ -19,6 +19,7 @@
 #include "backends/fast_pieces.inl"
 
 #include "backends/fast_near.inl"
+#include "backends/fast_near_outer.inl"
 
 namespace asterflow {
 namespace {

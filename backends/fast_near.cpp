@@ -13,12 +13,13 @@
 namespace asterflow {
 
 template <class Real>
-NearField<Real>::NearField(FastKernel kernel, FastLoops<Real> const& loops, LocalPart const& local, int refinement_steps,
-                           bool gradient)
+NearField<Real>::NearField(FastKernel kernel, FastLoops<Real> const& loops, LocalPart const& local, OuterPart const& outer,
+                           int refinement_steps, bool gradient)
     : kernel_(kernel),
       loops_(loops),
-      lists_(loops.lanes, split_coordinates, loops.list_near),
+      lists_(loops.lanes, split_coordinates, loops.list_near, outer.begin),
       local_(local),
+      outer_(outer),
       refinement_steps_(refinement_steps),
       gradient_(gradient) {
   NearPolynomials const& compiled = loops.near_polynomials;
@@ -27,12 +28,19 @@ NearField<Real>::NearField(FastKernel kernel, FastLoops<Real> const& loops, Loca
   ASTERFLOW_REQUIRE(local_.pieces == compiled.pieces && local_.terms <= compiled.most);
   local_.a.resize(local_.terms * local_.pieces, 0.0);
   local_.b.resize(local_.terms * local_.pieces, 0.0);
+  if (outer_.terms > 0) {
+    ASTERFLOW_REQUIRE(compiled.has_outer && !gradient && outer_.pieces == OuterLevel::pieces && outer_.terms <= OuterLevel::most);
+    outer_.terms = std::max(outer_.terms, OuterLevel::fewest);
+    outer_.first.resize(outer_.terms * outer_.pieces, 0.0);
+    outer_.second.resize(outer_.terms * outer_.pieces, 0.0);
+  }
   record_ = (split_coordinates ? 6 : 3) + n_component(kernel);
 }
 
 template <class Real>
 void NearField<Real>::make_levels() {
   levels_.clear();
+  outer_levels_.clear();
   int const power = has_normal(kernel_) ? NearStresslet::powers : NearStokeslet::powers;
   for (int level = 0; level < lists_.n_level(); ++level) {
     double const cutoff = std::ldexp(lists_.side(), -level);
@@ -44,6 +52,16 @@ void NearField<Real>::make_levels() {
       l.b[k] = static_cast<Real>(local_.b[k] * std::pow(cutoff, -power - 2));
     }
     levels_.push_back(l);
+    if (outer_.terms == 0) continue;
+    OuterLevel o{};
+    o.to_cutoff = 1.0 / cutoff;
+    o.to_pieces = static_cast<float>(outer_.to_pieces);
+    o.shift = static_cast<float>(outer_.pieces - 0.5 - outer_.to_pieces);
+    for (std::size_t k = 0; k < outer_.first.size(); ++k) {
+      o.first[k] = static_cast<float>(outer_.first[k] * std::pow(cutoff, -decay(kernel_)));
+      o.second[k] = static_cast<float>(outer_.second[k] * std::pow(cutoff, -decay(kernel_)));
+    }
+    outer_levels_.push_back(o);
   }
 }
 
@@ -132,7 +150,9 @@ void NearField<Real>::add(long item, Vec3d* velocity, Vec3d* gradient, Real* wor
   NearWork<Real> const near{kernel_, local_.terms, refinement_steps_, levels_.data(),
                             records_.data(), record_, &lists_.targets().data()->x, leaf.groups.data(),
                             static_cast<long>(leaf.groups.size()), leaf.segments.data(), leaf.list.data(),
-                            velocity_scale_, velocity_scale_ * lists_.side(), reactions};
+                            velocity_scale_, velocity_scale_ * lists_.side(), reactions,
+                            outer_levels_.empty() ? nullptr : outer_levels_.data(), outer_.terms,
+                            leaf.outer_segments.data(), leaf.outer_list.data()};
   loops_.add_near(near, &velocity->x, gradient ? &gradient->x : nullptr);
   if (leaf.close.empty()) return;
   if (kernel_ == FastKernel::stokeslet) return add_close<NearStokeslet>(leaf, velocity, gradient);

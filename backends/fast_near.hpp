@@ -13,9 +13,10 @@ namespace asterflow {
 template <class Real>
 class NearField {
  public:
-  // local: polynomials for cutoff 1, in as many pieces as the loops have; refinement_steps: see FastParameters.
-  // gradient: whether gradients will be asked for.
-  NearField(FastKernel kernel, FastLoops<Real> const& loops, LocalPart const& local, int refinement_steps, bool gradient);
+  // local, outer: polynomials for cutoff 1, in as many pieces as the loops have; refinement_steps: see FastParameters.
+  // gradient: whether gradients will be asked for, which takes an outer part of no terms.
+  NearField(FastKernel kernel, FastLoops<Real> const& loops, LocalPart const& local, OuterPart const& outer, int refinement_steps,
+            bool gradient);
 
   // Orders the points of the tree's leaves; the tree must outlive the sums.
   void set_points(Octree& tree);
@@ -49,10 +50,12 @@ class NearField {
   FastLoops<Real> loops_;
   NearLists lists_;
   LocalPart local_;
+  OuterPart outer_;
   int refinement_steps_;
   bool gradient_;
   int record_;  // numbers per source: coordinates (float: high and low parts), strength, normal
   std::vector<NearLevel<Real>> levels_;
+  std::vector<OuterLevel> outer_levels_;
   Workspace<Real> records_;  // [source, record]
   Vec3d const* strengths_ = nullptr;
   Vec3d const* normals_ = nullptr;

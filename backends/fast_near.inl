@@ -5,6 +5,11 @@
 namespace asterflow {
 namespace {
 
+#if defined(__AVX512F__)
+template <class Kernel>
+void add_outer(NearWork<double> const& work, double* velocity);
+#endif
+
 template <class Real>
 struct NearLoop {
   using P = Pack<Real>;
@@ -223,6 +228,10 @@ struct NearLoop {
     if constexpr (next <= near_polynomials<Real>.most)
       if (work.terms > terms) return add_of<Kernel, next>(work, velocity, gradient);
     add<Kernel, terms>(work, velocity);
+#if defined(__AVX512F__)
+    if constexpr (sizeof(Real) == 8)
+      if (work.outer_levels) add_outer<Kernel>(work, velocity);
+#endif
   }
 };
 
@@ -277,6 +286,8 @@ inline void list_near(NearQuery const& query, long begin, long end, long base, N
   using F = Pack<float>;
   constexpr int W = lanes<float>;
   constexpr float rounding = 4e-6f;
+  bool const puts_apart = query.inner < query.reach;
+  float const inner2 = query.inner * query.inner;
   float const reach2 = (1.0f + rounding) * query.reach * query.reach;
   float const touch2 = NearQuery::touch * NearQuery::touch + rounding * query.reach * query.reach;
   for (long s = begin; s < end; s += W) {
@@ -294,12 +305,17 @@ inline void list_near(NearQuery const& query, long begin, long end, long base, N
     F const least = square - most;
     unsigned hits = lanes_below(least, reach2);
     if (end - s < W) hits &= (1u << (end - s)) - 1u;
+    unsigned const outer = puts_apart ? hits & ~lanes_below(least, inner2) : 0u;
+    hits &= ~outer;
     put_places(found.sources + found.n_source, hits, static_cast<int>(s - base));
     for (unsigned touching = hits & lanes_below(least, touch2); touching != 0; touching &= touching - 1) {
       unsigned const before = hits & ((touching & -touching) - 1u);
       found.touching[found.n_touching++] = static_cast<std::uint16_t>(found.n_source + __builtin_popcount(before));
     }
     found.n_source += __builtin_popcount(hits);
+    if (outer == 0) continue;
+    put_places(found.outer + found.n_outer, outer, static_cast<int>(s - base));
+    found.n_outer += __builtin_popcount(outer);
   }
 }
 

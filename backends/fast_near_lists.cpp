@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace asterflow {
@@ -177,34 +178,43 @@ NearQuery NearLists::query(long first, int n) const {
   return q;
 }
 
-void NearLists::append_near(NearQuery& query, NearGroup const& group, Candidates& from, std::size_t first_segment,
-                            Leaf& leaf) const {
+void NearLists::append_near(NearQuery& query, NearGroup const& group, Candidates& from, Leaf& leaf) const {
   constexpr double slack = 4e-7;  // rounding of normalised float coordinates
-  query.reach = static_cast<float>(std::ldexp(1.0, -from.level) + slack);
-  bool const joins = !from.is_mutual && leaf.segments.size() > first_segment &&
+  double const cutoff = std::ldexp(1.0, -from.level);
+  query.reach = static_cast<float>(cutoff + slack);
+  query.inner = inner_reach_ < 1.0 ? static_cast<float>((inner_reach_ + 1e-5) * cutoff + slack) : 2.0f * query.reach;
+  bool const joins = !from.is_mutual && leaf.segments.size() > group.segment_end &&
                      leaf.segments.back().reaction == NearSegment::one_way && leaf.segments.back().level == from.level &&
                      from.sources.end - leaf.segments.back().base <= list_span;
   long const base = joins ? leaf.segments.back().base : from.sources.begin;
-  static thread_local std::vector<std::uint16_t> space[2];
+  static thread_local std::vector<std::uint16_t> space[3];
   std::size_t const most = static_cast<std::size_t>(from.sources.size()) + NearQuery::max_target;
   for (auto& numbers : space) numbers.resize(std::max(numbers.size(), most));
-  NearFound found{space[0].data(), space[1].data()};
+  NearFound found{space[0].data(), space[1].data(), space[2].data()};
   find_(query, from.sources.begin, from.sources.end, base, found);
   if (sets_close_apart_) set_close_apart(group, from.level, static_cast<std::uint32_t>(base), found, leaf);
-  if (found.n_source == 0) return;
-  leaf.list.insert(leaf.list.end(), found.sources, found.sources + found.n_source);
-  auto const end = static_cast<std::uint32_t>(leaf.list.size());
-  if (joins) {
-    leaf.segments.back().end = end;
-    return;
-  }
+  if (found.n_source + found.n_outer == 0) return;
   if (from.is_mutual && from.place < 0) {
     from.place = leaf.n_place;
     for (Reactions const& at : from.boxes)
       leaf.reactions.push_back({at.sources, std::exchange(leaf.n_place, leaf.n_place + at.sources.size()), at.leaf});
   }
-  std::int32_t const reaction = from.is_mutual ? static_cast<std::int32_t>(from.place) : NearSegment::one_way;
-  leaf.segments.push_back({static_cast<std::uint32_t>(base), end, from.level, reaction});
+  NearSegment segment{static_cast<std::uint32_t>(base), 0, from.level,
+                      from.is_mutual ? static_cast<std::int32_t>(from.place) : NearSegment::one_way};
+  auto const append = [&](std::uint16_t const* sources, long n, std::vector<NearSegment>& segments, std::uint32_t first,
+                          std::vector<std::uint16_t>& list) {
+    if (n == 0) return;
+    list.insert(list.end(), sources, sources + n);
+    segment.end = static_cast<std::uint32_t>(list.size());
+    bool const follows = segments.size() > first && segments.back().base == segment.base && segments.back().level == segment.level &&
+                         segments.back().reaction == segment.reaction;
+    if (follows)
+      segments.back().end = segment.end;
+    else
+      segments.push_back(segment);
+  };
+  append(found.sources, found.n_source, leaf.segments, group.segment_end, leaf.list);
+  append(found.outer, found.n_outer, leaf.outer_segments, group.outer_end, leaf.outer_list);
 }
 
 // Moves the sources that nearly touch a target from those found to leaf.close.
@@ -227,20 +237,24 @@ void NearLists::append_own(NearQuery& query, NearGroup const& group, int level, 
   Range const all = leaf.targets;
   long const next = group.target + group.n_target;
   Candidates group_only{level, {group.target, next}, false, -1, {}};
-  append_near(query, group, group_only, leaf.segments.size(), leaf);
+  append_near(query, group, group_only, leaf);
   for (long begin = next; begin < all.end; begin += list_span) {
     Candidates rest{level, {begin, std::min(all.end, begin + list_span)}, true, begin - all.begin, {}};
-    append_near(query, group, rest, leaf.segments.size(), leaf);
+    append_near(query, group, rest, leaf);
   }
 }
 
 NearLists::Leaf NearLists::list_sources(int level, Box const& box) const {
-  static thread_local std::vector<std::uint16_t> list;     // grown once for many leaves,
-  static thread_local std::vector<NearSegment> segments;  // whose own take what they need
+  static thread_local std::vector<std::uint16_t> lists[2];     // grown once for many leaves,
+  static thread_local std::vector<NearSegment> segments[2];  // whose own take what they need
   auto near = candidates(level, box);
   Leaf leaf;
-  list.clear(), list.swap(leaf.list);
-  segments.clear(), segments.swap(leaf.segments);
+  auto const own = [&](int i) { return std::tie(i == 0 ? leaf.list : leaf.outer_list, i == 0 ? leaf.segments : leaf.outer_segments); };
+  for (int i = 0; i < 2; ++i) {
+    auto [list, segment] = own(i);
+    lists[i].clear(), list.swap(lists[i]);
+    segments[i].clear(), segment.swap(segments[i]);
+  }
   leaf.targets = box.targets;
   leaf.groups.reserve((box.targets.size() + group_size_ - 1) / group_size_);
   if (lists_once_) {
@@ -248,17 +262,21 @@ NearLists::Leaf NearLists::list_sources(int level, Box const& box) const {
     leaf.n_place = box.targets.size();
   }
   for (long t = box.targets.begin; t < box.targets.end; t += group_size_) {
-    NearGroup group{t, static_cast<int>(std::min<long>(group_size_, box.targets.end - t)), 0};
+    NearGroup group{t, static_cast<int>(std::min<long>(group_size_, box.targets.end - t)),
+                    static_cast<std::uint32_t>(leaf.segments.size()), static_cast<std::uint32_t>(leaf.outer_segments.size())};
     NearQuery q = query(t, group.n_target);
-    std::size_t const first_segment = leaf.segments.size();
     if (lists_once_) append_own(q, group, level, leaf);
-    for (auto& from : near) append_near(q, group, from, first_segment, leaf);
+    for (auto& from : near) append_near(q, group, from, leaf);
     group.segment_end = static_cast<std::uint32_t>(leaf.segments.size());
+    group.outer_end = static_cast<std::uint32_t>(leaf.outer_segments.size());
     leaf.groups.push_back(group);
   }
-  ASTERFLOW_REQUIRE(leaf.list.size() < 0xffffffffu && leaf.n_place < 0x7fffffff);
-  list.swap(leaf.list), leaf.list = list;
-  segments.swap(leaf.segments), leaf.segments = segments;
+  ASTERFLOW_REQUIRE(leaf.list.size() < 0xffffffffu && leaf.outer_list.size() < 0xffffffffu && leaf.n_place < 0x7fffffff);
+  for (int i = 0; i < 2; ++i) {
+    auto [list, segment] = own(i);
+    list.swap(lists[i]), list = lists[i];
+    segment.swap(segments[i]), segment = segments[i];
+  }
   return leaf;
 }
 
@@ -266,7 +284,8 @@ std::size_t NearLists::memory() const {
   std::size_t bytes = leaves_.capacity() * sizeof(Leaf) + reactions_.capacity() * sizeof(Reactions);
   for (Leaf const& leaf : leaves_)
     bytes += leaf.groups.capacity() * sizeof(NearGroup) + leaf.segments.capacity() * sizeof(NearSegment) +
-             leaf.list.capacity() * sizeof(std::uint16_t) + leaf.close.capacity() * sizeof(ClosePair);
+             (leaf.list.capacity() + leaf.outer_list.capacity()) * sizeof(std::uint16_t) +
+             leaf.outer_segments.capacity() * sizeof(NearSegment) + leaf.close.capacity() * sizeof(ClosePair);
   return bytes;
 }
 

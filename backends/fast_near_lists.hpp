@@ -29,15 +29,18 @@ class NearLists {
     std::vector<NearGroup> groups;
     std::vector<NearSegment> segments;
     std::vector<std::uint16_t> list;   // sources of each segment, from its base
+    std::vector<NearSegment> outer_segments;
+    std::vector<std::uint16_t> outer_list;
     std::vector<ClosePair> close;
     std::vector<Reactions> reactions;  // of its targets, from first_place on
     long first_place = 0, n_place = 0;
   };
   using Finder = void(NearQuery const&, long begin, long end, long base, NearFound& found);
 
-  // group_size: targets of a group, at most NearQuery::max_target; find: see FastLoops::list_near.
-  NearLists(int group_size, bool sets_close_apart, Finder* find)
-      : group_size_(group_size), sets_close_apart_(sets_close_apart), find_(find) {}
+  // group_size: targets of a group, at most NearQuery::max_target; find: see FastLoops::list_near. inner_reach: of the cutoff; sources
+  // farther from all targets of a group are outer ones, unless it is 1.
+  NearLists(int group_size, bool sets_close_apart, Finder* find, double inner_reach = 1.0)
+      : group_size_(group_size), sets_close_apart_(sets_close_apart), find_(find), inner_reach_(inner_reach) {}
 
   // Orders the targets of every leaf into groups, then lists their sources. The tree must outlive the lists.
   // lists_once: pairs for both directions, where the targets are the sources.
@@ -70,7 +73,7 @@ class NearLists {
   std::vector<Candidates> candidates(int level, Box const& box) const;
   Leaf list_sources(int level, Box const& box) const;
   NearQuery query(long first, int n) const;
-  void append_near(NearQuery& query, NearGroup const& group, Candidates& from, std::size_t first_segment, Leaf& leaf) const;
+  void append_near(NearQuery& query, NearGroup const& group, Candidates& from, Leaf& leaf) const;
   void append_own(NearQuery& query, NearGroup const& group, int level, Leaf& leaf) const;
   void set_close_apart(NearGroup const& group, int level, std::uint32_t base, NearFound& found, Leaf& leaf) const;
   bool is_close(long target, int n_target, std::uint32_t source) const;
@@ -80,6 +83,7 @@ class NearLists {
   int group_size_;
   bool sets_close_apart_;
   Finder* find_;
+  double inner_reach_;
   Octree const* tree_ = nullptr;
   bool lists_once_ = false;
   std::vector<Leaf> leaves_;

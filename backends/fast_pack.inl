@@ -174,7 +174,7 @@ inline void add_lane_sums(Pack<Real> const (&v)[3], Real* sum) {
     __m256d part[3];
     for (int d = 0; d < 3; ++d) {
 #if defined(__AVX512F__)
-      part[d] = _mm256_add_pd(_mm512_castpd512_pd256((__m512d)v[d]), _mm512_extractf64x4_pd((__m512d)v[d], 1));
+      part[d] = _mm256_add_pd(_mm512_castpd512_pd256((__m512d)v[d]), _mm512_maskz_extractf64x4_pd(0xf, (__m512d)v[d], 1));
 #else
       part[d] = (__m256d)v[d];
 #endif

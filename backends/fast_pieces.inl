@@ -9,7 +9,7 @@ namespace {
 template <class Real>
 constexpr NearPolynomials near_polynomials =
 #if defined(__AVX512F__)
-    sizeof(Real) == 4 ? NearPolynomials{16, 3, 1, 7} : NearPolynomials{8, 8, 1, 13};
+    sizeof(Real) == 4 ? NearPolynomials{16, 3, 1, 7} : NearPolynomials{8, 8, 1, 13, true};
 #elif defined(__AVX2__)
     sizeof(Real) == 4 ? NearPolynomials{8, 4, 1, 8} : NearPolynomials{1, 14, 2, 24};
 #else

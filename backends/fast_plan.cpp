@@ -25,7 +25,7 @@ struct Costs {
 // lists_once: pairs serve both directions (fast_near_lists.hpp), so that one direction costs less.
 Costs costs(FastParameters const& p, int components, bool lists_once) {
   double const digits = (p.split_shape - 2.9) / 2.42, width2 = static_cast<double>(p.width) * p.width;
-  double const pair = p.single ? 0.48 + 0.067 * digits : 0.95 + 0.072 * digits;
+  double const pair = p.single ? 0.48 + 0.067 * digits : p.gradient ? 0.95 + 0.072 * digits : 0.50 + 0.085 * digits;
   double const point = p.single ? (components / 6.0 + 0.5) * (4.0 * width2 + 100.0) : (1.1 * components + 6.8) * width2;
   double const direction = !lists_once ? 1.0 : p.single ? 0.72 : 0.65, normals = components > 3 ? 1.3 : 1.0;
   return {direction * normals * pair, (p.single ? 1.5 : 3.2) * (components + 3), point};

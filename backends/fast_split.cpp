@@ -100,11 +100,11 @@ std::vector<double> monomials(std::vector<double> const& series, int n) {
   return sum;
 }
 
-// A function of r in [0, 1] on equal parts of r^2.
+// A function of r in [begin, 1] on equal parts of r^2.
 class Piecewise {
  public:
-  Piecewise(Function const& f, int pieces, double tolerance) {
-    auto whole = chebyshev_series<n_fit>([&](double s) { return f(std::sqrt(s)); }, 0.0, 1.0);
+  Piecewise(Function const& f, int pieces, double tolerance, double begin = 0.0) {
+    auto whole = chebyshev_series<n_fit>([&](double s) { return f(std::sqrt(s)); }, begin * begin, 1.0);
     tolerance = std::max(tolerance, 1e-13 * largest(whole));  // rounding of the coefficients
     if (pieces > 1) whole.resize(terms_needed(whole, 1e-16 * largest(whole)));
     for (int i = 0; i < pieces; ++i) {
@@ -143,26 +143,79 @@ double KernelSplit::moment(int power, double r, F const& f) {
   return sum;
 }
 
-LocalPart KernelSplit::local_part(std::string_view kernel, double tolerance, int pieces) const {
-  auto const g = [&](double x) { return window_.value(x); };
-  auto const h = [&](double x) { return window_.slope(x); };
-  auto const h2 = [&](double x) { return window_.slope_of_slope(x); };
+// The polynomials A and B, and what else LocalPart and OuterPart tell of a kernel.
+struct KernelSplit::Functions {
   Function a = [](double) { return 0.0; }, b = a;
-  if (kernel == "stokeslet") {
-    a = [&](double r) { return 2.0 * g(r) + 2.0 * moment(0, r, g); };
-    b = [&](double r) { return -2.0 * moment(2, r, h); };
-  } else if (kernel == "rotlet" || kernel == "stokeslet_pressure") {
-    b = [&](double r) { return -h(r) - 2.0 * moment(2, r, h); };
-  } else if (kernel == "stresslet_pressure") {
-    a = [&](double r) { return -h(r) - 2.0 * moment(2, r, h); };
-    b = [&](double r) { return (h2(r) + 2.0 * moment(4, r, h2)) / 3.0; };
-  } else {
-    a = [&](double r) { return 2.0 * h(r); };
-    b = [&](double r) { return (2.0 / 3.0) * moment(4, r, h2); };
+  double by_first = 1.0, by_second = 1.0;
+  int first_power = 0, second_power = 3;  // of 1 / r in the local part before A and B; 0: nothing
+  int first_tensor = 0, second_tensor = 2;  // powers of r that it multiplies
+  double size = 1.0;  // of the kernel at the cutoff
+
+  double first(double r) const { return by_first * ((first_power > 0 ? std::pow(r, -first_power) : 0.0) - a(r)); }
+  double second(double r) const { return by_second * (std::pow(r, -second_power) - b(r)); }
+  double local_size(double r) const {
+    return (std::abs(first(r)) * std::pow(r, first_tensor) + std::abs(second(r)) * std::pow(r, second_tensor)) / size;
   }
-  Piecewise const part_a(a, pieces, tolerance), part_b(b, pieces, tolerance);
+};
+
+KernelSplit::Functions KernelSplit::functions(std::string_view kernel) const {
+  auto const g = [this](double x) { return window_.value(x); };
+  auto const h = [this](double x) { return window_.slope(x); };
+  auto const h2 = [this](double x) { return window_.slope_of_slope(x); };
+  auto const third = [=](double r) { return -h(r) - 2.0 * moment(2, r, h); };
+  Functions f;
+  if (kernel == "stokeslet") {
+    f.a = [=](double r) { return 2.0 * g(r) + 2.0 * moment(0, r, g); };
+    f.b = [=](double r) { return -2.0 * moment(2, r, h); };
+    f.first_power = 1;
+  } else if (kernel == "rotlet" || kernel == "stokeslet_pressure") {
+    f.b = third;
+    f.second_tensor = 1;
+    f.by_second = f.size = kernel == "rotlet" ? 1.0 : 2.0;
+  } else if (kernel == "stresslet_pressure") {
+    f.a = third;
+    f.b = [=](double r) { return (h2(r) + 2.0 * moment(4, r, h2)) / 3.0; };
+    f.first_power = 3, f.second_power = 5;
+    f.by_first = 4.0, f.by_second = -12.0, f.size = 12.0;
+  } else {
+    f.a = [=](double r) { return 2.0 * h(r); };
+    f.b = [=](double r) { return (2.0 / 3.0) * moment(4, r, h2); };
+    f.second_power = 5, f.first_tensor = 1, f.second_tensor = 3;
+    f.by_second = -6.0, f.size = 6.0;
+  }
+  return f;
+}
+
+LocalPart KernelSplit::local_part(std::string_view kernel, double tolerance, int pieces) const {
+  Functions const f = functions(kernel);
+  Piecewise const part_a(f.a, pieces, tolerance), part_b(f.b, pieces, tolerance);
   int const n = std::max(part_a.terms(), part_b.terms());
   return {pieces, n, part_a.coefficients(n), part_b.coefficients(n)};
+}
+
+// As near as the root mean square of what float rounds of it, over all distances up to the cutoff, is within some part of the tolerance.
+OuterPart KernelSplit::outer_part(std::string_view kernel, double tolerance, int pieces, int most_terms) const {
+  constexpr double step = 1.0 / 64.0, nearest = 0.4, farthest = 0.95;
+  constexpr double rounding = 3e-8;  // of r
+  constexpr double part = 0.5;
+  Functions const f = functions(kernel);
+  double begin = 1.0, squares = 0.0, size = f.local_size(1.0);
+  for (double r = 1.0 - step; r >= nearest; r -= step) {
+    double const error = rounding * (f.local_size(r) - size) / step;
+    size = f.local_size(r);
+    squares += 3.0 * r * r * step * error * error;
+    if (std::sqrt(squares) > part * tolerance) break;
+    begin = r;
+  }
+  for (; begin <= farthest; begin += step) {
+    double const to_pieces = std::round(16.0 * pieces / (1.0 - begin * begin)) / 16.0;
+    begin = std::sqrt(1.0 - pieces / to_pieces);
+    Piecewise const first([&](double r) { return f.first(r); }, pieces, part * tolerance * f.size, begin);
+    Piecewise const second([&](double r) { return f.second(r); }, pieces, part * tolerance * f.size, begin);
+    int const n = std::max(first.terms(), second.terms());
+    if (n <= most_terms) return {begin, to_pieces, pieces, n, first.coefficients(n), second.coefficients(n)};
+  }
+  return {};
 }
 
 }  // namespace asterflow

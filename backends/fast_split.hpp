@@ -26,14 +26,31 @@ struct LocalPart {
   std::vector<double> a, b;
 };
 
+// The local part at distances begin ... 1 in float. It falls there by as much as the window of the split, so that float's rounding of
+// it, and of r where it is steep, is a small part of the kernel's size at the cutoff. first and second are all that multiplies the tensors:
+//   Stokeslet  first f + second r (r.f)      rotlet  second t x r
+//   stresslet  first (q (n.r) + n (q.r) + (q.n) r) + second r (q.r) (n.r)
+//   pressures  second (r.f)  and  first (q.n) + second (r.q) (r.n)
+// Pieces as those of LocalPart, of r^2 from begin^2 to 1: x = to_pieces (r^2 - 1) + pieces - 1/2, exact in float. No terms: there is no
+// such distance.
+struct OuterPart {
+  double begin = 1.0, to_pieces = 0.0;
+  int pieces = 0, terms = 0;
+  std::vector<double> first, second;
+};
+
 class KernelSplit {
  public:
   explicit KernelSplit(double shape) : window_(shape) {}
 
   double filter(double k) const { return window_.spectrum(k) - 0.5 * k * window_.spectrum_slope(k); }
   LocalPart local_part(std::string_view kernel, double tolerance, int pieces) const;
+  // Of at most as many terms.
+  OuterPart outer_part(std::string_view kernel, double tolerance, int pieces, int most_terms) const;
 
  private:
+  struct Functions;
+  Functions functions(std::string_view kernel) const;
   // Integral over s in [0, 1] of s^power f(r s).
   template <class F>
   static double moment(int power, double r, F const& f);
